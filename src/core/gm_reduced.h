@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The reduced gearset: the mechanical part between the input flanges and the output
+ * flange, with losses, inertias and ratios from tables. Rigid fidelity: an engaged path p
+ * turns with the output, w_p = r_p w_o (r_p signed).
+ *
+ * For a configuration s (one gear per path), E engaged, N neutral paths, a = dw_o/dt and
+ * sigma in Sgn(w_o), set-valued at zero:
+ *
+ *   0 = J_s a - tau_o - sum_E r_p tau_p - sum_sync r_g T_c,p + sum_N R_n
+ *       - sum_{n in N, q in E} r_q C(w_n - w_q)
+ *       + sigma [ P_s(|w_o|) + sum_E |r_p| D_p(|w_p|, sigma_p tau_m,p) + X_s ]
+ *   tau_m,p = tau_p + sum_N C(w_n - w_p) - J_p r_p a          sigma_p = sgn(r_p) sigma
+ *   J_n dw_n/dt = tau_n - N_n(w_n, w_o) - C(w_n - w_q) - T_c,n
+ *   T_c,n in capacity Sgn(w_n - r_g w_o)                      while synchronising to g
+ *   J_s = J_out + sum_E r_p^2 J_p
+ *
+ * When both paths are in neutral, C acts between the two of them.
+ *
+ * Time stepping: implicit in the signs (exact stiction, no creep), tables and their
+ * speed gradients at the middle of the step, angles by the trapezoid rule; so the energy
+ * account (work = kinetic + loss) closes to rounding on every step. See gm_reduced.c.
+ *
+ * No allocation, no I/O, no globals, only + - * / : the same bits on every platform.
+ */
+#ifndef GM_REDUCED_H
+#define GM_REDUCED_H
+
+#include "gm_interp.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define GM_MAX_PATHS 2
+#define GM_NEUTRAL 0
+
+/** Direction of rotation as a table index: forward (speed > 0 or 0+), backward. */
+enum { GM_FORWARD = 0, GM_BACKWARD = 1 };
+
+/** One gear of a path. */
+typedef struct gm_gear {
+    int number;             /* -1 reverse, 1..n; never 0 */
+    gm_real ratio;          /* r = w_path / w_output, signed */
+    gm_table2 load_loss[2]; /* D by direction of rotation of the path: x |w_p| [rad/s],
+                               y torque in the direction of rotation [N.m] (> 0 driving)
+                               -> loss torque at the path's flange [N.m] */
+} gm_gear;
+
+/** A line w_n = ratio * w_o of the (w_n, w_o) plane, on which the drag of one idling gear
+ *  changes sign: N jumps by +jump, R by -ratio * jump when w_n grows past it. Within
+ *  GM_LINE_WIDTH of the line the jump is a ramp. */
+typedef struct gm_drag_line {
+    gm_real ratio;
+    gm_table1 jump[2]; /* by direction of w_o: x |w_o| [rad/s] -> N.m, >= 0 */
+} gm_drag_line;
+
+#define GM_LINE_WIDTH 1.0 /* rad/s, the ramp is from -1 to +1 around the line */
+
+/** One path: an input flange and what is behind it. */
+typedef struct gm_path {
+    gm_real inertia;     /* J_p: turns with the input flange in neutral [kg.m2] */
+    gm_real sync_torque; /* default cone capacity at the input flange [N.m] */
+    int n_gears;
+    const gm_gear *gears; /* [n_gears] */
+    /* Smooth parts of N and R by [direction of w_n][direction of w_o]:
+       x |w_n|, y |w_o| [rad/s] -> N.m at the input flange, at the output. R(0, w_o) = 0. */
+    gm_table2 drag[2][2];
+    gm_table2 reaction[2][2];
+    int n_lines;
+    const gm_drag_line *lines; /* [n_lines] */
+} gm_path;
+
+/** One gear per path; gear[p] is an index into path[p].gears, or -1 for neutral. */
+typedef struct gm_configuration {
+    int gear[GM_MAX_PATHS];
+    gm_table1 parasitic[2];   /* P_s by direction of w_o: x |w_o| -> N.m at the output,
+                                 neutral shafts at rest, C not included */
+    gm_table3 both_loaded[2]; /* X_s by direction of w_o: x |w_o|, y and z torque of path 0
+                                 and 1 in their direction of rotation -> N.m at the output,
+                                 signed. value = NULL: zero */
+} gm_configuration;
+
+/** Everything a gearset is reduced to. Constant; may live in flash. */
+typedef struct gm_reduced_map {
+    int n_paths; /* 1 or 2 */
+    gm_path path[GM_MAX_PATHS];
+    /* Index of (g0, g1): (g0 + 1) * (path[1].n_gears + 1) + g1 + 1; for one path g0 + 1. */
+    int n_configurations;
+    const gm_configuration *configurations;
+    gm_table1 coupling;     /* C: x relative speed w_0 - w_1, signed [rad/s] -> N.m; zero
+                               when value = NULL. C(w_1 - w_0) = -C(w_0 - w_1). */
+    gm_real inertia_output; /* J_out [kg.m2] */
+} gm_reduced_map;
+
+typedef enum gm_path_mode {
+    GM_PATH_NEUTRAL = 0,
+    GM_PATH_SYNCHRONISING = 1,
+    GM_PATH_ENGAGED = 2
+} gm_path_mode;
+
+typedef struct gm_reduced_params {
+    gm_real loss_scale;                /* factor on every loss torque, >= 0; default 1 */
+    gm_real sync_torque[GM_MAX_PATHS]; /* cone capacity at the input flange [N.m], > 0 or
+                                          infinite (HUGE_VAL): instantaneous engagement */
+} gm_reduced_params;
+
+/** Inputs, constant or linear over a step. Torques act into the gearset. */
+typedef struct gm_reduced_inputs {
+    gm_real output_tau, output_tau_rate;                       /* N.m, N.m/s */
+    gm_real path_tau[GM_MAX_PATHS], path_tau_rate[GM_MAX_PATHS];
+    int gear[GM_MAX_PATHS];  /* commanded gear numbers */
+    gm_real oil_temperature; /* K; without effect while maps have no such axis */
+} gm_reduced_inputs;
+
+/** State of one path. */
+typedef struct gm_path_state {
+    gm_real phi, w; /* rad, rad/s */
+    int mode;       /* gm_path_mode */
+    int gear;       /* index of the gear engaged or being synchronised; -1 in neutral */
+} gm_path_state;
+
+/** Speed of every independent shaft and the accounts; plain data without pointers. */
+typedef struct gm_reduced_state {
+    gm_real phi_o, w_o;
+    gm_path_state path[GM_MAX_PATHS];
+    gm_real work;        /* done by the flanges on the gearset since the start [J] */
+    gm_real loss_energy; /* dissipated since the start, engagement impulses included [J] */
+    struct {             /* interpolation caches: no influence on results */
+        gm_cell1 parasitic, coupling;
+        gm_cell2 load_loss[GM_MAX_PATHS], drag[GM_MAX_PATHS], reaction[GM_MAX_PATHS];
+    } cache;
+} gm_reduced_state;
+
+/** What can be observed of a state under given inputs. */
+typedef struct gm_reduced_outputs {
+    gm_real a_o;                            /* rad/s2 */
+    gm_real a[GM_MAX_PATHS];                /* rad/s2 */
+    gm_real transmitted[GM_MAX_PATHS];      /* tau_m of engaged paths, else 0 [N.m] */
+    gm_real path_loss_torque[GM_MAX_PATHS]; /* sigma_p D_p engaged; N_n + C neutral [N.m] */
+    gm_real output_loss_torque;             /* sigma (P + X) + R at the output [N.m] */
+    gm_real loss_power;                     /* all of it, cones included [W] */
+    gm_real kinetic_energy;                 /* [J] */
+} gm_reduced_outputs;
+
+/** Flags of a call, or-ed. */
+enum {
+    GM_FLAG_OUT_OF_MAP = 1,     /* a table was left; its edge value was used */
+    GM_FLAG_NOT_FINITE = 2,     /* a NaN or infinite input, or a result that overflowed: the
+                                   state is unchanged */
+    GM_FLAG_GEAR_REFUSED_0 = 4, /* unknown gear number commanded on path 0; gear kept */
+    GM_FLAG_GEAR_REFUSED_1 = 8
+};
+
+/** loss_scale 1 and the map's own cone capacities. */
+void gm_reduced_default_params(const gm_reduced_map *map, gm_reduced_params *params);
+
+/** Index of gear number in path p: -1 for neutral, -2 when the path has no such gear. */
+int gm_reduced_find_gear(const gm_reduced_map *map, int p, int number);
+
+/** Index into map->configurations of the gears engaged in *state (a path that
+ *  synchronises counts as neutral). */
+int gm_reduced_configuration(const gm_reduced_map *map, const gm_reduced_state *state);
+
+/** Start: commanded gears are engaged at once; angles and accounts are zero.
+ *  w_o [rad/s]: speed of the output; w[n_paths]: speed of each path, used where the path
+ *  is in neutral (an engaged path gets r_p w_o). Returns flags; an unknown gear counts as
+ *  neutral and is flagged. */
+int gm_reduced_start(const gm_reduced_map *map, const gm_reduced_inputs *inputs,
+                     gm_real w_o, const gm_real *w, gm_reduced_state *state);
+
+/** One step of h > 0 seconds. Returns flags. Bounded work whatever the inputs. */
+int gm_reduced_step(const gm_reduced_map *map, const gm_reduced_params *params,
+                    const gm_reduced_inputs *inputs, gm_real h, gm_reduced_state *state);
+
+/** Accelerations, losses and energies of the state under the inputs at this instant
+ *  (one-sided limits at standstill: the friction that holds or is overcome). Returns
+ *  flags. Changes nothing but the caches in *state. */
+int gm_reduced_outputs_at(const gm_reduced_map *map, const gm_reduced_params *params,
+                          const gm_reduced_inputs *inputs, gm_reduced_state *state,
+                          gm_reduced_outputs *outputs);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

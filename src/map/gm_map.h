@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The map: tables of losses, inertias and ratios with axes, as the sweep collects them and
+ * the generators use them. In memory here; its file is map_file.c (docs/map.md).
+ */
+#ifndef GM_MAP_H
+#define GM_MAP_H
+
+#include "base/gm_status.h"
+#include "core/gm_reduced.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define GM_MAP_FORMAT 1 /* version of the file's schema */
+#define GM_MAP_TEXT 128
+#define GM_MAP_ANY 99 /* in place of a gear or direction that does not apply */
+
+/** Which quantity a table holds; see core/gm_reduced.h for the symbols. */
+typedef enum gm_symbol {
+    GM_PARASITIC,   /* P: gear[] = configuration, direction[0] of the output;
+                          axes: output speed */
+    GM_LOAD_LOSS,   /* D: path, gear[path], direction[0] of the path;
+                          axes: path speed, torque in the direction of rotation */
+    GM_BOTH_LOADED, /* X: gear[] = configuration, direction[0] of the output;
+                          axes: output speed, torque of path 0, of path 1 */
+    GM_DRAG,        /* N: path, direction[0] of the path, [1] of the output;
+                          axes: path speed, output speed */
+    GM_REACTION,    /* R: as N */
+    GM_LINE_JUMP,   /* path, gear[path], direction[0] of the output; axes: output speed */
+    GM_COUPLING,    /* C: axes: relative speed, signed */
+    GM_SYMBOLS
+} gm_symbol;
+
+/** Name in the file, such as "parasitic_loss". */
+const char *gm_symbol_name(gm_symbol symbol);
+
+/** Unused fields are GM_MAP_ANY. Gears are numbers (0 neutral). Directions are
+ *  GM_FORWARD or GM_BACKWARD. */
+typedef struct gm_table_key {
+    gm_symbol symbol;
+    int path;
+    int gear[GM_MAX_PATHS];
+    int direction[2];
+} gm_table_key;
+
+#define GM_MAX_AXES 3
+
+typedef struct gm_map_table {
+    gm_table_key key;
+    int n_axes;
+    int n[GM_MAX_AXES];     /* nodes; 1 where there is no such axis */
+    double *x[GM_MAX_AXES]; /* SI, strictly increasing; NULL where there is no axis */
+    double *value;          /* [n0][n1][n2], SI */
+} gm_map_table;
+
+typedef struct gm_map_gear {
+    int number;
+    double ratio;       /* identified from the model, signed */
+    double ratio_given; /* NAN: not given */
+} gm_map_gear;
+
+typedef struct gm_map_path {
+    char name[16];
+    double inertia;     /* J_p, kg.m2 */
+    double sync_torque; /* N.m at the input flange */
+    int n_gears;
+    gm_map_gear *gears; /* ascending by number */
+} gm_map_path;
+
+typedef struct gm_map {
+    char name[GM_MAP_TEXT], title[GM_MAP_TEXT];
+    char tool_version[32];
+    char input_sha256[65];  /* of the description */
+    char options[GM_MAP_TEXT * 2]; /* how it was swept, canonical text */
+    char content_hash[65];  /* filled when finished or read */
+    double speed_max, torque_max, oil_temperature; /* rad/s, N.m, K */
+    double inertia_output;
+    int n_paths;
+    gm_map_path paths[GM_MAX_PATHS];
+    int n_tables;
+    gm_map_table *tables;
+} gm_map;
+
+/** New empty map; NULL when there is no memory. */
+gm_map *gm_map_create(void);
+void gm_map_destroy(gm_map *map);
+
+/** Room for n_gears gears on path p. */
+GM_NODISCARD gm_status gm_map_set_path(gm_map *map, int p, const char *name, int n_gears,
+                                       gm_error *error);
+
+/** Add a table with copies of the axes; values are zero. *index receives its number. */
+GM_NODISCARD gm_status gm_map_add_table(gm_map *map, const gm_table_key *key, int n_axes,
+                                        const int *n, const double *const *x, int *index,
+                                        gm_error *error);
+
+/** The table of a key, or NULL. */
+const gm_map_table *gm_map_find(const gm_map *map, const gm_table_key *key);
+
+/** Number of values of a table, and of one of its rows (first axis fixed). */
+int gm_map_table_size(const gm_map_table *table);
+int gm_map_row_size(const gm_map_table *table);
+
+/** SHA-256 over what the map says: ratios, inertias, tables, input hash, options. The
+ *  same for the same input and options, whatever the tool's version or file layout. */
+GM_NODISCARD gm_status gm_map_hash(const gm_map *map, char text[65], gm_error *error);
+
+/** The map as the reduced gearset reads it. The view points into the map, which must
+ *  outlive it. GM_ERR_FORMAT when a table is missing or has the wrong axes. */
+typedef struct gm_map_view gm_map_view;
+GM_NODISCARD gm_status gm_map_view_create(const gm_map *map, gm_map_view **view,
+                                          gm_error *error);
+void gm_map_view_destroy(gm_map_view *view);
+const gm_reduced_map *gm_map_view_reduced(const gm_map_view *view);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The map's file: SQLite, schema in docs/map.md. While a sweep runs, the same schema is
+ * its journal: "<map>.part" holds every finished row, whatever ends the program; when the
+ * last row is there it becomes the map. A map never exists half-written under its name.
+ */
+#ifndef GM_MAP_FILE_H
+#define GM_MAP_FILE_H
+
+#include "map/gm_map.h"
+
+#include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Read a finished map. One sentence when the file is missing, not a map, of another
+ *  format version, truncated or damaged (its content does not give its content hash). */
+GM_NODISCARD gm_status gm_map_read(const char *path, gm_map **map, gm_error *error);
+
+/** A sweep's journal beside the map to be. */
+typedef struct gm_journal gm_journal;
+
+/** Open or create "<path>.part" for a map whose axes and keys are set. Rows that an
+ *  earlier run of the same sweep (same input hash, options and tables) finished are put
+ *  into map->tables[].value and marked in done[table][row]; the journal of another sweep
+ *  is replaced. GM_ERR_IO when the place cannot be written: nothing is left behind. */
+GM_NODISCARD gm_status gm_journal_open(const char *path, gm_map *map, gm_journal **journal,
+                                       gm_error *error);
+
+/** True when the row is finished. */
+bool gm_journal_has(const gm_journal *journal, int table, int row);
+
+/** Number of finished rows found when the journal was opened. */
+int gm_journal_resumed(const gm_journal *journal);
+
+/** Keep one finished row (its values are read from map->tables[table]). Safe against a
+ *  killed program from the moment it returns. Not thread-safe. */
+GM_NODISCARD gm_status gm_journal_put(gm_journal *journal, const gm_map *map, int table,
+                                      int row, gm_error *error);
+
+/** All rows are there: write ratios, inertias, provenance and the content hash (also into
+ *  *map), and rename the file to its final name. The journal is closed in any case. */
+GM_NODISCARD gm_status gm_journal_finish(gm_journal *journal, gm_map *map, gm_error *error);
+
+/** Close. keep: the file stays, to be resumed; else it is removed. NULL is fine. */
+void gm_journal_close(gm_journal *journal, bool keep);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

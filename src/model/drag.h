@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * Losses that do not depend on load: radial shaft seals, oil films in narrow gaps
+ * (concentric shafts, open synchroniser cones), gears dipping into the oil.
+ * Each law: torque >= 0 [N.m] at speed w >= 0 [rad/s], with its derivative.
+ */
+#ifndef DRAG_H
+#define DRAG_H
+
+#include "model/friction.h"
+#include "model/oil.h"
+
+/** Radial shaft seal of shaft diameter d [m]. ISO/TR 14179-2: P = 7.69e-6 d^2 n (W, mm,
+ *  rpm), a constant torque; ISO/TR 14179-1: T = 3.737e-3 d (FPM) or 2.429e-3 d (NBR);
+ *  Linke: depends on temperature and oil. */
+gm_speed_torque gm_seal_torque(gm_seal_model model, double d, const gm_oil *oil, double w);
+
+/** Petroff's law for a gap: radius r, length L, clearance c [m]: 2 pi eta w r^3 L / c. */
+gm_speed_torque gm_petroff_torque(double r, double L, double c, const gm_oil *oil, double w);
+
+/** A gear in the oil bath: pitch radius R_p, face width b, immersion depth h, volume V_0
+ *  of the bath [m, m3]. */
+typedef struct gm_dip {
+    double R_p, b, h, V_0;
+} gm_dip;
+
+/** Churning torque by Changenet and Velex (2007): T = 1/2 rho w^2 R_p^3 S_m C_m.
+ *  Blended over Re_c 6000 to 9000. Zero when h <= 0; h is limited to the diameter. */
+gm_speed_torque gm_churning_torque(const gm_dip *dip, const gm_oil *oil, double w);
+
+#endif

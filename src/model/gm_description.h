@@ -1,0 +1,205 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The gearset as its file describes it: named parts with dimensions, in SI units. Plain
+ * data; read by gm_description_read, which refuses what breaks a rule. The fields of the
+ * file, their units and ranges are listed in one table, schema.c.
+ *
+ * Coordinates: x along the shafts, y and z across, z up (gravity is -z). All shafts are
+ * parallel to x. Positive rotation is about +x.
+ */
+#ifndef GM_DESCRIPTION_H
+#define GM_DESCRIPTION_H
+
+#include "base/gm_status.h"
+#include "model/gm_steady.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define GM_NAME_SIZE 48
+#define GM_HOUSING (-1)        /* in place of a shaft index: the housing */
+#define GM_STEEL_DENSITY 7850. /* kg/m3 */
+
+/** A part's name and the line of the file where it stands. */
+typedef struct gm_label {
+    char name[GM_NAME_SIZE];
+    int line;
+} gm_label;
+
+/** A cylinder of a shaft. */
+typedef struct gm_segment {
+    double from, to; /* axial, m */
+    double diameter; /* m */
+    double bore;     /* inner diameter, 0 if solid, m */
+    int line;
+} gm_segment;
+
+typedef struct gm_shaft {
+    gm_label id;
+    double y, z;           /* m */
+    double inertia, mass;  /* of the shaft without its gears; NAN: from the segments */
+    gm_segment *segments;
+    int n_segments;
+} gm_shaft;
+
+typedef enum gm_bearing_type {
+    GM_BEARING_DEEP_GROOVE_BALL,
+    GM_BEARING_ANGULAR_CONTACT_BALL,
+    GM_BEARING_CYLINDRICAL_ROLLER,
+    GM_BEARING_NEEDLE_ROLLER,
+    GM_BEARING_TAPERED_ROLLER
+} gm_bearing_type;
+
+typedef enum gm_bearing_friction {
+    GM_FRICTION_NONE, /* support only: its friction belongs to something outside */
+    GM_FRICTION_SKF,
+    GM_FRICTION_PALMGREN
+} gm_bearing_friction_model;
+
+/** A rolling bearing's own data, as both friction models need it. */
+typedef struct gm_bearing_data {
+    gm_bearing_type type;
+    gm_bearing_friction_model friction;
+    char designation[GM_NAME_SIZE]; /* such as "6206"; empty when dimensions are given */
+    char series[GM_NAME_SIZE];      /* row of the SKF constants, such as "62" or "2" */
+    double d, D, B;                 /* bore, outside diameter, width [m] */
+    double C0;                      /* static load rating [N] */
+    double Y;                       /* tapered: axial factor */
+    double f0, f1;                  /* Palmgren; NAN: default of the type */
+} gm_bearing_data;
+
+/** A gear wheel; an idling one turns on its shaft on a bearing of its own. */
+typedef struct gm_wheel {
+    gm_label id;
+    int shaft;
+    int teeth;
+    double normal_module;   /* m */
+    double helix;           /* rad, > 0 right-handed */
+    double pressure_angle;  /* normal, rad */
+    double profile_shift;   /* x */
+    double width;           /* m */
+    double position;        /* axial, middle of the face, m */
+    double roughness;       /* Ra, m */
+    int internal;           /* 1: internal teeth (ring) */
+    int idles;              /* 1: turns on its shaft until a synchroniser locks it */
+    double inertia, mass;   /* NAN: disc from bore to pitch diameter */
+    double bore;            /* NAN: the shaft's diameter at the position, m */
+    gm_bearing_data bearing;/* of an idling gear */
+    int churning;           /* 1: computed when it dips into the oil */
+} gm_wheel;
+
+typedef enum gm_mesh_loss_model {
+    GM_MESH_CONSTANT, /* efficiency given */
+    GM_MESH_ISO14179_2
+} gm_mesh_loss_model;
+
+typedef struct gm_mesh {
+    gm_label id;
+    int wheel[2];
+    gm_mesh_loss_model loss;
+    double efficiency;        /* constant */
+    double minimum_line_load; /* lower limit of F_bt/b in the friction coefficient, N/m */
+} gm_mesh;
+
+typedef struct gm_bearing {
+    gm_label id;
+    int shaft;
+    int on; /* GM_HOUSING or the shaft that carries the outer ring */
+    double position;
+    int locating; /* takes axial load */
+    gm_bearing_data data;
+    double radial_stiffness, axial_stiffness; /* N/m; matter only where statics cannot tell */
+} gm_bearing;
+
+typedef enum gm_seal_model {
+    GM_SEAL_ISO14179_2,
+    GM_SEAL_ISO14179_1_FPM,
+    GM_SEAL_ISO14179_1_NBR,
+    GM_SEAL_LINKE
+} gm_seal_model;
+
+typedef struct gm_seal {
+    gm_label id;
+    int shaft;
+    int on; /* GM_HOUSING or a shaft */
+    double diameter;
+    gm_seal_model model;
+} gm_seal;
+
+/** The oil-filled gap between two concentric shafts. */
+typedef struct gm_gap {
+    gm_label id;
+    int inner, outer;
+    double radius, length, clearance; /* m */
+} gm_gap;
+
+/** A synchroniser: sits on a shaft, locks one of its gears at a time. */
+typedef struct gm_synchroniser {
+    gm_label id;
+    int shaft;
+    int n_wheels;
+    int *wheels;         /* [n_wheels] idling gears on that shaft */
+    double cone_torque;  /* capacity at the cone, N.m */
+    double cone_radius, cone_width, cone_clearance; /* open cone drag, m */
+} gm_synchroniser;
+
+typedef struct gm_path_gear {
+    int number;
+    int wheel;             /* the idling gear that is locked to its shaft */
+    double ratio;          /* given overall ratio input/output, signed; NAN: not given */
+    int line;
+} gm_path_gear;
+
+typedef struct gm_path_part {
+    gm_label id; /* "odd", "even" or "input" */
+    int shaft;
+    int n_gears;
+    gm_path_gear *gears; /* ascending by number */
+} gm_path_part;
+
+typedef struct gm_oil_part {
+    char name[GM_NAME_SIZE];
+    double viscosity_40, viscosity_100; /* kinematic, m2/s */
+    double density_15;                  /* kg/m3 */
+    double thermal_expansion;           /* alpha of rho = rho15 (1 - alpha (T - 15)), 1/K */
+    double temperature;                 /* K */
+    double mesh_lubricant_factor;       /* X_L of ISO/TR 14179-2 */
+    double bearing_mu_ehl;              /* SKF sliding friction coefficient, full film */
+    double level;                       /* z of the surface at rest, m; NAN: no bath */
+    double volume;                      /* m3 */
+} gm_oil_part;
+
+typedef struct gm_description {
+    char *file;               /* as given */
+    char sha256[65];          /* of the file's bytes */
+    char name[GM_NAME_SIZE];
+    char *title;
+    double speed_max;         /* input, rad/s */
+    double torque_max;        /* input, N.m */
+    gm_oil_part oil;
+    int n_shafts, n_wheels, n_meshes, n_bearings, n_seals, n_gaps, n_synchronisers, n_paths;
+    gm_shaft *shafts;
+    gm_wheel *wheels;
+    gm_mesh *meshes;
+    gm_bearing *bearings;
+    gm_seal *seals;
+    gm_gap *gaps;
+    gm_synchroniser *synchronisers;
+    gm_path_part paths[GM_MAX_INPUT_PATHS]; /* "odd" before "even" */
+    int output; /* shaft */
+} gm_description;
+
+/** Read and check a description file.
+ *  On success *description is new and the caller's (gm_description_destroy).
+ *  Otherwise one sentence: file, line, element, rule and the numbers that disagree.
+ *  GM_ERR_IO, GM_ERR_FORMAT (not YAML, unknown key, not a number, out of range),
+ *  GM_ERR_MODEL (parts that do not fit together), GM_ERR_MEMORY. */
+GM_NODISCARD gm_status gm_description_read(const char *path, gm_description **description,
+                                           gm_error *error);
+void gm_description_destroy(gm_description *description);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

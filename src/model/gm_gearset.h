@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The detailed gearset, assembled: bodies that rotate, rows that couple them (meshes,
+ * locked synchronisers), friction elements between them, and the steady balance of torques.
+ *
+ *   for every body b:   - sum_e g_e,b F_e + tau_friction,b + tau_flange,b = 0
+ *   for every row e:      g_e . w = 0   (meshes are rigid in steady motion)
+ *
+ * Bearing loads follow from the row forces by statics (statics.c), bearing and mesh
+ * friction from loads and speeds. The room knows no solver: it gives residuals and their
+ * exact Jacobian.
+ *
+ * Independent speeds of a configuration: the output and every path in neutral. Where such
+ * a speed is given, the torque at its flange is unknown; where it is free, the torque is
+ * given. An engaged path's torque is given and its speed follows.
+ */
+#ifndef GM_GEARSET_H
+#define GM_GEARSET_H
+
+#include "model/gm_description.h"
+#include "model/gm_steady.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct gm_gearset gm_gearset;
+
+/** Assemble. oil_temperature [K]. The description must outlive the gearset. */
+GM_NODISCARD gm_status gm_gearset_create(const gm_description *description,
+                                         double oil_temperature, gm_gearset **gearset,
+                                         gm_error *error);
+void gm_gearset_destroy(gm_gearset *gearset);
+
+const gm_description *gm_gearset_description(const gm_gearset *gearset);
+
+/** GM_ERR_MODEL when the gears block each other or a body is reached by no flange. */
+GM_NODISCARD gm_status gm_gearset_kinematics(const gm_gearset *gearset, const int *gear,
+                                             gm_kinematics *kinematics, gm_error *error);
+
+/** Workspace of the steady balance for one thread; keeps what does not change while the
+ *  configuration and the speeds stay. */
+typedef struct gm_balance gm_balance;
+GM_NODISCARD gm_status gm_balance_create(const gm_gearset *gearset, gm_balance **balance,
+                                         gm_error *error);
+void gm_balance_destroy(gm_balance *balance);
+
+/** Choose the point. Unknowns x: row forces, then unknown flange torques (N, N.m). */
+GM_NODISCARD gm_status gm_balance_set_point(gm_balance *balance,
+                                            const gm_steady_point *point, gm_error *error);
+
+/** Number of unknowns and of Jacobian entries at the present configuration. */
+int gm_balance_size(const gm_balance *balance);
+int gm_balance_entries(const gm_balance *balance);
+
+/** One pass of the natural predictor: friction at x, then forces from the leaves to the
+ *  root; x -> next x. Start from zeros. Returns the largest change relative to the
+ *  largest unknown. */
+double gm_balance_pass(gm_balance *balance, double *x);
+
+/** Residual f[size] of the torque balances [N.m] at x. */
+void gm_balance_residual(gm_balance *balance, const double *x, double *f);
+
+/** Jacobian df/dx, compressed columns: column_start[size + 1], row[entries] and
+ *  value[entries]; the pattern is that of the configuration. */
+void gm_balance_pattern(const gm_balance *balance, int *column_start, int *row);
+void gm_balance_jacobian(gm_balance *balance, const double *x, double *value);
+
+/** Flange torques and speeds at the solution x. */
+void gm_balance_result(const gm_balance *balance, const double *x, gm_steady_result *result);
+
+/** Loss power of every friction element at the solution. */
+typedef enum gm_loss_kind {
+    GM_LOSS_MESH,
+    GM_LOSS_BEARING,
+    GM_LOSS_IDLER,
+    GM_LOSS_SEAL,
+    GM_LOSS_SYNCHRONISER,
+    GM_LOSS_GAP,
+    GM_LOSS_CHURNING,
+    GM_LOSS_KINDS
+} gm_loss_kind;
+
+typedef struct gm_element_loss {
+    gm_loss_kind kind;
+    const char *name; /* the part's, owned by the description */
+    double power;     /* W, >= 0 */
+    double speed;     /* relative, rad/s or m/s (meshes) */
+    double radial, axial; /* loads of bearings, tangential force F_bt of meshes [N] */
+} gm_element_loss;
+
+int gm_gearset_element_count(const gm_gearset *gearset);
+/** losses[element_count] */
+void gm_balance_losses(gm_balance *balance, const double *x, gm_element_loss *losses);
+
+/** Name of a kind of loss, such as "bearings". */
+const char *gm_loss_kind_name(gm_loss_kind kind);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * What a steady operating point of any gearset is: given speeds and torques at the
+ * flanges, and what is found. Flange 0 is the output, flange 1 + p is path p.
+ */
+#ifndef GM_STEADY_H
+#define GM_STEADY_H
+
+#define GM_MAX_INPUT_PATHS 2
+#define GM_MAX_FLANGES (1 + GM_MAX_INPUT_PATHS)
+
+/** One operating point. The speeds of the output and of the paths in neutral are
+ *  independent and given; the torques of the engaged paths are given. */
+typedef struct gm_steady_point {
+    int gear[GM_MAX_INPUT_PATHS]; /* gear numbers, 0 neutral */
+    double speed[GM_MAX_FLANGES];     /* rad/s: output and neutral paths */
+    double direction[GM_MAX_FLANGES]; /* +1 or -1, same flanges: where a relative
+                                                 speed is zero, friction takes the limit for
+                                                 flanges starting to move this way */
+    double torque[GM_MAX_FLANGES]; /* N.m: engaged paths */
+} gm_steady_point;
+
+typedef struct gm_steady_result {
+    double torque[GM_MAX_FLANGES]; /* N.m into the gearset, given or found */
+    double speed[GM_MAX_FLANGES];  /* rad/s, given or found */
+} gm_steady_result;
+
+/** Kinematics of a configuration. */
+typedef struct gm_kinematics {
+    double ratio[GM_MAX_INPUT_PATHS];   /* w_path / w_output of engaged paths, else 0 */
+    double inertia_output;              /* turns with the output, all in neutral, kg.m2 */
+    double inertia[GM_MAX_INPUT_PATHS]; /* turns with path p, all in neutral, kg.m2 */
+} gm_kinematics;
+
+#endif

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The built-in detailed gearset as a plant.
+ */
+#ifndef GM_BUILTIN_H
+#define GM_BUILTIN_H
+
+#include "model/gm_gearset.h"
+#include "plant/gm_plant.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Plant over a gearset, which must outlive it. Free with gm_builtin_destroy. */
+GM_NODISCARD gm_status gm_builtin_create(const gm_gearset *gearset, gm_plant **plant,
+                                         gm_error *error);
+void gm_builtin_destroy(gm_plant *plant);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The sweep: every experiment that the reduced gearset needs, on all cores, into a map.
+ */
+#ifndef GM_SWEEP_H
+#define GM_SWEEP_H
+
+#include "map/gm_map.h"
+#include "plant/gm_plant.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Zero means: automatic, or the plant's own maximum. */
+typedef struct gm_sweep_options {
+    double speed_step;  /* uniform speed axis, rad/s */
+    double torque_step; /* uniform torque axis, N.m */
+    double speed_max;   /* rad/s at the input flange */
+    double torque_max;  /* N.m at the input flange */
+    int threads;
+} gm_sweep_options;
+
+typedef struct gm_sweep_progress {
+    long points_done, points_total; /* resumed ones included */
+    long points_resumed;
+    double elapsed; /* s */
+} gm_sweep_progress;
+
+/** Called from one thread at a time, a few times a second; return non-zero to stop (the
+ *  sweep then answers GM_ERR_INTERRUPTED and keeps its journal). */
+typedef int (*gm_sweep_report)(void *user, const gm_sweep_progress *progress);
+
+typedef struct gm_sweep_summary {
+    long points;      /* solved now, without resumed ones */
+    long resumed;
+    double elapsed;   /* s */
+    double largest_ratio_deviation; /* identified against given ratios, relative */
+} gm_sweep_summary;
+
+/** Run. path: the map's file, or NULL: in memory only. On success *map is the caller's.
+ *  The result does not depend on the number of threads nor on interruptions.
+ *  GM_ERR_MODEL when an identified ratio differs from the given one by more than 1e-3 or
+ *  in sign, or the tables would not give a unique solution (|dD/dtau| >= 1). */
+GM_NODISCARD gm_status gm_sweep_run(const gm_plant *plant, const gm_sweep_options *options,
+                                    const char *path, gm_sweep_report report, void *user,
+                                    gm_map **map, gm_sweep_summary *summary,
+                                    gm_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
