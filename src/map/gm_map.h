@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * The map: tables of losses, inertias and ratios with axes, as the sweep collects them and
- * the generators use them. In memory here; its file is map_file.c (docs/map.md).
+ * The map: tables of losses, inertias and ratios with axes, as the sweep collects them
+ * and the generators use them. In memory here; its file is map_file.c (docs/map.md).
  */
 #ifndef GM_MAP_H
 #define GM_MAP_H
@@ -30,7 +30,7 @@ typedef enum gm_symbol {
     GM_REACTION,    /* R: as N */
     GM_LINE_JUMP,   /* path, gear[path], direction[0] of the output; axes: output speed */
     GM_COUPLING,    /* C: axes: relative speed, signed */
-    GM_SYMBOLS
+    GM_SYMBOLS      /* how many there are */
 } gm_symbol;
 
 /** Name in the file, such as "parasitic_loss". */
@@ -45,7 +45,16 @@ typedef struct gm_table_key {
     int direction[2];
 } gm_table_key;
 
+/** A key of this symbol whose other fields are all GM_MAP_ANY: the start of any key. */
+gm_table_key gm_table_key_of(gm_symbol symbol);
+
 #define GM_MAX_AXES 3
+
+/* Limits, far beyond any sweep, that keep a damaged file from asking for all memory. */
+#define GM_MAP_MAX_GEARS 64
+#define GM_MAP_MAX_TABLES 65536
+#define GM_MAP_MAX_NODES 100000
+#define GM_MAP_MAX_VALUES 10000000 /* of one table */
 
 typedef struct gm_map_table {
     gm_table_key key;
@@ -64,7 +73,7 @@ typedef struct gm_map_gear {
 typedef struct gm_map_path {
     char name[16];
     double inertia;     /* J_p, kg.m2 */
-    double sync_torque; /* N.m at the input flange */
+    double sync_torque; /* N.m at the input flange, > 0; infinite: engages at once */
     int n_gears;
     gm_map_gear *gears; /* ascending by number */
 } gm_map_path;
@@ -72,9 +81,9 @@ typedef struct gm_map_path {
 typedef struct gm_map {
     char name[GM_MAP_TEXT], title[GM_MAP_TEXT];
     char tool_version[32];
-    char input_sha256[65];  /* of the description */
-    char options[GM_MAP_TEXT * 2]; /* how it was swept, canonical text */
-    char content_hash[65];  /* filled when finished or read */
+    char input_sha256[65];                         /* of the description */
+    char options[GM_MAP_TEXT * 2];                 /* how it was swept, canonical text */
+    char content_hash[65];                         /* filled when finished or read */
     double speed_max, torque_max, oil_temperature; /* rad/s, N.m, K */
     double inertia_output;
     int n_paths;
@@ -87,16 +96,21 @@ typedef struct gm_map {
 gm_map *gm_map_create(void);
 void gm_map_destroy(gm_map *map);
 
-/** Room for n_gears gears on path p. */
+/** Room for n_gears gears on path p; what the path held before is gone. Path 0 comes
+ *  first. name: 1 to 15 characters. GM_ERR_ARGUMENT, GM_ERR_MEMORY. */
 GM_NODISCARD gm_status gm_map_set_path(gm_map *map, int p, const char *name, int n_gears,
                                        gm_error *error);
 
-/** Add a table with copies of the axes; values are zero. *index receives its number. */
+/** Add a table with copies of the axes; values are zero. *index receives its number.
+ *  n[n_axes], x[n_axes][n[a]]: as the symbol demands, each strictly increasing, speeds
+ *  not negative. The paths must have been set before. Adding moves the array map->tables.
+ *  GM_ERR_ARGUMENT: key or axes do not fit, or the map has the key already.
+ *  GM_ERR_MEMORY. */
 GM_NODISCARD gm_status gm_map_add_table(gm_map *map, const gm_table_key *key, int n_axes,
                                         const int *n, const double *const *x, int *index,
                                         gm_error *error);
 
-/** The table of a key, or NULL. */
+/** The table of a key, or NULL. Valid until the next gm_map_add_table. */
 const gm_map_table *gm_map_find(const gm_map *map, const gm_table_key *key);
 
 /** Number of values of a table, and of one of its rows (first axis fixed). */
@@ -104,7 +118,8 @@ int gm_map_table_size(const gm_map_table *table);
 int gm_map_row_size(const gm_map_table *table);
 
 /** SHA-256 over what the map says: ratios, inertias, tables, input hash, options. The
- *  same for the same input and options, whatever the tool's version or file layout. */
+ *  same for the same input and options, whatever the tool's version or file layout.
+ *  text: 64 hexadecimal digits. GM_ERR_MEMORY. */
 GM_NODISCARD gm_status gm_map_hash(const gm_map *map, char text[65], gm_error *error);
 
 /** The map as the reduced gearset reads it. The view points into the map, which must

@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The map as the reduced gearset reads it: the same numbers, arranged by gear,
+ * configuration and direction. Optional tables that the map does not have (both paths
+ * loaded, coupling, drag jumps) are zero; all others must be there.
+ */
+#include "base/alloc.h"
+#include "map/map_rules.h"
+
+struct gm_map_view {
+    gm_reduced_map reduced;
+    gm_gear *gears[GM_MAX_PATHS];
+    gm_drag_line *lines[GM_MAX_PATHS];
+    gm_configuration *configurations;
+};
+
+/* What the steps below share. */
+typedef struct builder {
+    const gm_map *map;
+    gm_map_view *view;
+    gm_error *error;
+} builder;
+
+/* A table that is zero everywhere: one node, so there is no range to leave. */
+static const gm_real zero_node[1] = {0.0};
+static const gm_table1 zero_table = {{1, zero_node}, zero_node};
+
+static gm_axis axis_of(const gm_map_table *table, int a)
+{
+    return (gm_axis){table->n[a], table->x[a]};
+}
+
+static gm_table1 table1_of(const gm_map_table *t)
+{
+    return (gm_table1){axis_of(t, 0), t->value};
+}
+
+static gm_table2 table2_of(const gm_map_table *t)
+{
+    return (gm_table2){axis_of(t, 0), axis_of(t, 1), t->value};
+}
+
+static gm_table3 table3_of(const gm_map_table *t)
+{
+    return (gm_table3){axis_of(t, 0), axis_of(t, 1), axis_of(t, 2), t->value};
+}
+
+static gm_status find_required(const builder *b, const gm_table_key *key,
+                               const gm_map_table **table)
+{
+    char words[GM_KEY_TEXT];
+    *table = gm_map_find(b->map, key);
+    if (*table)
+        return GM_OK;
+    gm_map_key_text(b->map, key, words);
+    return gm_fail(b->error, GM_ERR_FORMAT, "the map has no table %s", words);
+}
+
+static gm_status build_gear(const builder *b, int p, int g)
+{
+    const gm_map_gear *from = &b->map->paths[p].gears[g];
+    gm_gear *gear = &b->view->gears[p][g];
+    gm_table_key key = gm_table_key_of(GM_LOAD_LOSS);
+    gear->number = from->number;
+    gear->ratio = from->ratio;
+    key.path = p;
+    key.gear[p] = from->number;
+    for (int d = 0; d < 2; d++) {
+        const gm_map_table *table;
+        key.direction[0] = d;
+        gm_status status = find_required(b, &key, &table);
+        if (status != GM_OK)
+            return status;
+        gear->load_loss[d] = table2_of(table);
+    }
+    return GM_OK;
+}
+
+/* One line for each gear of the path that has a jump in at least one direction. */
+static void build_lines(const builder *b, int p)
+{
+    const gm_map_path *path = &b->map->paths[p];
+    int n = 0;
+    for (int g = 0; g < path->n_gears; g++) {
+        gm_drag_line *line = &b->view->lines[p][n];
+        gm_table_key key = gm_table_key_of(GM_LINE_JUMP);
+        int found = 0;
+        key.path = p;
+        key.gear[p] = path->gears[g].number;
+        line->ratio = path->gears[g].ratio;
+        for (int d = 0; d < 2; d++) {
+            key.direction[0] = d;
+            const gm_map_table *table = gm_map_find(b->map, &key);
+            line->jump[d] = table ? table1_of(table) : zero_table;
+            found += table != NULL;
+        }
+        n += found > 0;
+    }
+    b->view->reduced.path[p].n_lines = n;
+    b->view->reduced.path[p].lines = b->view->lines[p];
+}
+
+static gm_status build_drag(const builder *b, int p, gm_symbol symbol,
+                            gm_table2 tables[2][2])
+{
+    gm_table_key key = gm_table_key_of(symbol);
+    key.path = p;
+    for (int i = 0; i < 4; i++) {
+        const gm_map_table *table;
+        key.direction[0] = i / 2;
+        key.direction[1] = i % 2;
+        gm_status status = find_required(b, &key, &table);
+        if (status != GM_OK)
+            return status;
+        tables[i / 2][i % 2] = table2_of(table);
+    }
+    return GM_OK;
+}
+
+static gm_status build_path(const builder *b, int p)
+{
+    const gm_map_path *from = &b->map->paths[p];
+    gm_path *path = &b->view->reduced.path[p];
+    gm_status status = GM_OK;
+    b->view->gears[p] = gm_calloc((size_t)from->n_gears, sizeof *b->view->gears[p]);
+    /* one more than gears: build_lines fills a line before it knows whether it counts */
+    b->view->lines[p] = gm_calloc((size_t)from->n_gears + 1, sizeof *b->view->lines[p]);
+    if (!b->view->gears[p] || !b->view->lines[p])
+        return gm_fail(b->error, GM_ERR_MEMORY, "no memory to view the map");
+    path->inertia = from->inertia;
+    path->sync_torque = from->sync_torque;
+    path->n_gears = from->n_gears;
+    path->gears = b->view->gears[p];
+    for (int g = 0; status == GM_OK && g < from->n_gears; g++)
+        status = build_gear(b, p, g);
+    if (status == GM_OK)
+        status = build_drag(b, p, GM_DRAG, path->drag);
+    if (status == GM_OK)
+        status = build_drag(b, p, GM_REACTION, path->reaction);
+    if (status == GM_OK)
+        build_lines(b, p);
+    return status;
+}
+
+static int gear_number(const gm_map_path *path, int g)
+{
+    return g < 0 ? GM_NEUTRAL : path->gears[g].number;
+}
+
+/* Key of a table of configuration c and direction d. */
+static gm_table_key configuration_key(const gm_map *map, const gm_configuration *c,
+                                      gm_symbol symbol, int d)
+{
+    gm_table_key key = gm_table_key_of(symbol);
+    key.direction[0] = d;
+    for (int p = 0; p < map->n_paths; p++)
+        key.gear[p] = gear_number(&map->paths[p], c->gear[p]);
+    return key;
+}
+
+static gm_status build_configuration(const builder *b, gm_configuration *c)
+{
+    for (int d = 0; d < 2; d++) {
+        const gm_map_table *table;
+        gm_table_key key = configuration_key(b->map, c, GM_PARASITIC, d);
+        gm_status status = find_required(b, &key, &table);
+        if (status != GM_OK)
+            return status;
+        c->parasitic[d] = table1_of(table);
+        key.symbol = GM_BOTH_LOADED;
+        table = gm_map_find(b->map, &key);
+        if (table)
+            c->both_loaded[d] = table3_of(table);
+    }
+    return GM_OK;
+}
+
+static gm_status build_configurations(const builder *b)
+{
+    const gm_map *map = b->map;
+    int n1 = map->n_paths > 1 ? map->paths[1].n_gears + 1 : 1;
+    int n = (map->paths[0].n_gears + 1) * n1;
+    gm_status status = GM_OK;
+    b->view->configurations = gm_calloc((size_t)n, sizeof *b->view->configurations);
+    if (!b->view->configurations)
+        return gm_fail(b->error, GM_ERR_MEMORY, "no memory to view the map");
+    for (int i = 0; status == GM_OK && i < n; i++) {
+        gm_configuration *c = &b->view->configurations[i];
+        c->gear[0] = i / n1 - 1;
+        c->gear[1] = i % n1 - 1;
+        status = build_configuration(b, c);
+    }
+    b->view->reduced.n_configurations = n;
+    b->view->reduced.configurations = b->view->configurations;
+    return status;
+}
+
+static gm_status build(const builder *b)
+{
+    gm_reduced_map *reduced = &b->view->reduced;
+    gm_status status = gm_map_check(b->map, b->error);
+    gm_table_key key = gm_table_key_of(GM_COUPLING);
+    const gm_map_table *coupling = gm_map_find(b->map, &key);
+    reduced->n_paths = b->map->n_paths;
+    reduced->inertia_output = b->map->inertia_output;
+    if (coupling)
+        reduced->coupling = table1_of(coupling);
+    for (int p = 0; status == GM_OK && p < reduced->n_paths; p++)
+        status = build_path(b, p);
+    return status == GM_OK ? build_configurations(b) : status;
+}
+
+gm_status gm_map_view_create(const gm_map *map, gm_map_view **view, gm_error *error)
+{
+    gm_map_view *made = gm_calloc(1, sizeof *made);
+    if (!made)
+        return gm_fail(error, GM_ERR_MEMORY, "no memory to view the map");
+    gm_status status = build(&(builder){map, made, error});
+    if (status == GM_OK)
+        *view = made;
+    else
+        gm_map_view_destroy(made);
+    return status;
+}
+
+void gm_map_view_destroy(gm_map_view *view)
+{
+    if (!view)
+        return;
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        gm_free(view->gears[p]);
+        gm_free(view->lines[p]);
+    }
+    gm_free(view->configurations);
+    gm_free(view);
+}
+
+const gm_reduced_map *gm_map_view_reduced(const gm_map_view *view)
+{
+    return &view->reduced;
+}

@@ -1,0 +1,234 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The view: the numbers the reduced gearset reads are those of the tables.
+ */
+#include "map_fixture.h"
+
+#include "base/alloc.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static gm_map_view *view_of(const gm_map *map)
+{
+    gm_error error;
+    gm_map_view *view = NULL;
+    if (gm_map_view_create(map, &view, &error) != GM_OK)
+        fail_msg("%s", error.message);
+    return view;
+}
+
+static void assert_table2(const gm_map *map, const gm_table_key *key, const gm_table2 *t)
+{
+    const gm_map_table *from = gm_map_find(map, key);
+    assert_non_null(from);
+    assert_ptr_equal(t->value, from->value);
+    assert_ptr_equal(t->x.x, from->x[0]);
+    assert_ptr_equal(t->y.x, from->x[1]);
+    assert_int_equal(t->x.n, from->n[0]);
+    assert_int_equal(t->y.n, from->n[1]);
+}
+
+static void shows_gears_with_ratios_and_load_losses(void **state)
+{
+    (void)state;
+    gm_map *map = fixture_map(&fixture_full);
+    gm_map_view *view = view_of(map);
+    const gm_reduced_map *reduced = gm_map_view_reduced(view);
+    assert_int_equal(reduced->n_paths, 2);
+    assert_true(reduced->inertia_output == map->inertia_output);
+    for (int p = 0; p < 2; p++) {
+        const gm_path *path = &reduced->path[p];
+        assert_int_equal(path->n_gears, 2);
+        assert_true(path->inertia == map->paths[p].inertia);
+        assert_true(path->sync_torque == map->paths[p].sync_torque);
+        for (int i = 0; i < 4; i++) {
+            const gm_gear *gear = &path->gears[i / 2];
+            gm_table_key key = gm_table_key_of(GM_LOAD_LOSS);
+            key.path = p;
+            key.gear[p] = map->paths[p].gears[i / 2].number;
+            key.direction[0] = i % 2;
+            assert_int_equal(gear->number, key.gear[p]);
+            assert_true(gear->ratio == map->paths[p].gears[i / 2].ratio);
+            assert_table2(map, &key, &gear->load_loss[i % 2]);
+        }
+    }
+    gm_map_view_destroy(view);
+    gm_map_destroy(map);
+    gm_map_view_destroy(NULL);
+}
+
+static void shows_drag_and_reaction_by_both_directions(void **state)
+{
+    (void)state;
+    gm_map *map = fixture_map(&fixture_full);
+    gm_map_view *view = view_of(map);
+    for (int i = 0; i < 8; i++) {
+        const gm_path *path = &gm_map_view_reduced(view)->path[i / 4];
+        gm_table_key key = gm_table_key_of(GM_DRAG);
+        key.path = i / 4;
+        key.direction[0] = i / 2 % 2;
+        key.direction[1] = i % 2;
+        assert_table2(map, &key, &path->drag[i / 2 % 2][i % 2]);
+        key.symbol = GM_REACTION;
+        assert_table2(map, &key, &path->reaction[i / 2 % 2][i % 2]);
+    }
+    gm_map_view_destroy(view);
+    gm_map_destroy(map);
+}
+
+static void shows_lines_of_gears_that_jump(void **state)
+{
+    (void)state;
+    gm_map *map = fixture_map(&fixture_full);
+    gm_map_view *view = view_of(map);
+    const gm_path *odd = &gm_map_view_reduced(view)->path[0];
+    const gm_path *even = &gm_map_view_reduced(view)->path[1];
+    assert_int_equal(odd->n_lines, 2);
+    assert_int_equal(even->n_lines, 1); /* gear 2 has no table */
+    assert_true(odd->lines[0].ratio == map->paths[0].gears[0].ratio);
+    assert_true(odd->lines[1].ratio == map->paths[0].gears[1].ratio);
+    assert_true(even->lines[0].ratio == map->paths[1].gears[0].ratio);
+    gm_table_key key = gm_table_key_of(GM_LINE_JUMP);
+    key.path = 0;
+    key.gear[0] = 3;
+    key.direction[0] = GM_FORWARD;
+    assert_ptr_equal(odd->lines[1].jump[GM_FORWARD].value, gm_map_find(map, &key)->value);
+    /* no table backward: a constant zero that has no range to leave */
+    assert_int_equal(odd->lines[1].jump[GM_BACKWARD].x.n, 1);
+    assert_true(odd->lines[1].jump[GM_BACKWARD].value[0] == 0.0);
+    gm_map_view_destroy(view);
+    gm_map_destroy(map);
+}
+
+static void numbers_configurations_by_both_gears(void **state)
+{
+    (void)state;
+    gm_map *map = fixture_map(&fixture_full);
+    gm_map_view *view = view_of(map);
+    const gm_reduced_map *reduced = gm_map_view_reduced(view);
+    assert_int_equal(reduced->n_configurations, 9);
+    for (int i = 0; i < 18; i++) {
+        int g0 = i / 6 - 1, g1 = i / 2 % 3 - 1, d = i % 2;
+        const gm_configuration *c = &reduced->configurations[(g0 + 1) * 3 + g1 + 1];
+        gm_table_key key = gm_table_key_of(GM_PARASITIC);
+        assert_int_equal(c->gear[0], g0);
+        assert_int_equal(c->gear[1], g1);
+        key.gear[0] = g0 < 0 ? 0 : map->paths[0].gears[g0].number;
+        key.gear[1] = g1 < 0 ? 0 : map->paths[1].gears[g1].number;
+        key.direction[0] = d;
+        assert_ptr_equal(c->parasitic[d].value, gm_map_find(map, &key)->value);
+        key.symbol = GM_BOTH_LOADED;
+        const gm_map_table *x = gm_map_find(map, &key);
+        assert_int_equal(x != NULL, g0 >= 0 && g1 >= 0);
+        assert_ptr_equal(c->both_loaded[d].value, x ? x->value : NULL);
+        assert_int_equal(c->both_loaded[d].z.n, x ? x->n[2] : 0);
+    }
+    assert_ptr_equal(reduced->coupling.value,
+                     map->tables[map->n_tables - 1].value); /* added last */
+    gm_map_view_destroy(view);
+    gm_map_destroy(map);
+}
+
+static void optional_tables_may_be_missing(void **state)
+{
+    (void)state;
+    const fixture_options bare = {2, false, false, GM_SYMBOLS},
+                          one = {1, true, false, GM_SYMBOLS};
+    gm_map *map = fixture_map(&bare);
+    gm_map_view *view = view_of(map);
+    const gm_reduced_map *reduced = gm_map_view_reduced(view);
+    assert_null(reduced->coupling.value);
+    assert_null(reduced->configurations[8].both_loaded[0].value);
+    assert_int_equal(reduced->path[0].n_lines, 0);
+    gm_map_view_destroy(view);
+    gm_map_destroy(map);
+    map = fixture_map(&one);
+    view = view_of(map);
+    reduced = gm_map_view_reduced(view);
+    assert_int_equal(reduced->n_paths, 1);
+    assert_int_equal(reduced->n_configurations, 3);
+    assert_int_equal(reduced->configurations[0].gear[0], -1);
+    assert_int_equal(reduced->configurations[2].gear[0], 1);
+    assert_int_equal(reduced->configurations[2].gear[1], -1);
+    gm_map_view_destroy(view);
+    gm_map_destroy(map);
+}
+
+static void missing_table_is_named(void **state)
+{
+    (void)state;
+    static const gm_symbol required[] = {GM_PARASITIC, GM_LOAD_LOSS, GM_DRAG,
+                                         GM_REACTION};
+    static const char *const words[] = {
+        "parasitic loss (gear 0, gear 0, forward)",
+        "load loss (path odd, gear 1, forward)", "drag (path odd, forward, forward)",
+        "reaction of the drag (path odd, forward, forward)"};
+    for (int i = 0; i < 4; i++) {
+        fixture_options options = fixture_full;
+        options.leave_out = required[i];
+        gm_error error = {0};
+        gm_map_view *view = NULL;
+        gm_map *map = fixture_map(&options);
+        assert_int_equal(gm_map_view_create(map, &view, &error), GM_ERR_FORMAT);
+        if (!strstr(error.message, words[i]))
+            fail_msg("'%s' does not name '%s'", error.message, words[i]);
+        assert_null(view);
+        gm_map_destroy(map);
+    }
+}
+
+static void wrong_numbers_are_refused(void **state)
+{
+    (void)state;
+    gm_map *map = fixture_map(&fixture_full);
+    gm_map_view *view = NULL;
+    gm_error error;
+    map->paths[0].gears[1].ratio = 0.0;
+    assert_int_equal(gm_map_view_create(map, &view, &error), GM_ERR_FORMAT);
+    map->paths[0].gears[1].ratio = 4.0;
+    map->tables[3].x[0][1] = -1.0;
+    assert_int_equal(gm_map_view_create(map, &view, &error), GM_ERR_FORMAT);
+    assert_null(view);
+    gm_map_destroy(map);
+}
+
+static void allocation_failures_leak_nothing(void **state)
+{
+    (void)state;
+    gm_map *map = fixture_map(&fixture_full);
+    gm_map_view *view = NULL;
+    gm_status status = GM_ERR_MEMORY;
+    int failures = -1;
+    for (long k = 1; status == GM_ERR_MEMORY; k++, failures++) {
+        assert_null(view);
+        gm_alloc_fail_after(k);
+        status = gm_map_view_create(map, &view, NULL);
+        gm_alloc_fail_after(0);
+    }
+    assert_int_equal(status, GM_OK);
+    assert_int_equal(failures,
+                     6); /* view, gears and lines of two paths, configurations */
+    gm_map_view_destroy(view);
+    gm_map_destroy(map);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(shows_gears_with_ratios_and_load_losses),
+        cmocka_unit_test(shows_drag_and_reaction_by_both_directions),
+        cmocka_unit_test(shows_lines_of_gears_that_jump),
+        cmocka_unit_test(numbers_configurations_by_both_gears),
+        cmocka_unit_test(optional_tables_may_be_missing),
+        cmocka_unit_test(missing_table_is_named),
+        cmocka_unit_test(wrong_numbers_are_refused),
+        cmocka_unit_test(allocation_failures_leak_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
