@@ -34,9 +34,21 @@ void gm_gearset_destroy(gm_gearset *gearset);
 
 const gm_description *gm_gearset_description(const gm_gearset *gearset);
 
+/** Oil temperature that the gearset was assembled for [K]. */
+double gm_gearset_oil_temperature(const gm_gearset *gearset);
+
 /** GM_ERR_MODEL when the gears block each other or a body is reached by no flange. */
 GM_NODISCARD gm_status gm_gearset_kinematics(const gm_gearset *gearset, const int *gear,
                                              gm_kinematics *kinematics, gm_error *error);
+
+/** Capacity of path p's synchronisers as a torque at its input flange [N.m]: cone torque
+ *  times wheel speed over input speed, the smallest of its gears. NAN without memory. */
+double gm_gearset_sync_torque(const gm_gearset *gearset, int p);
+
+/** Speeds of path p in gear `number` [rad/s, ascending, at most n_max] at which the sliding
+ *  speed of a loaded mesh leaves boundary friction: kinks of the loss. Returns their number. */
+int gm_gearset_kink_speeds(const gm_gearset *gearset, int p, int number, int n_max,
+                           double *speed);
 
 /** Workspace of the steady balance for one thread; keeps what does not change while the
  *  configuration and the speeds stay. */

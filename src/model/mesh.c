@@ -19,7 +19,6 @@
 #include <math.h>
 
 static const double exponent = 0.2;
-static const double min_sliding_speed = 0.2; /* m/s */
 static const double max_pitch_speed = 50.;   /* m/s */
 static const double max_mu = 0.12;
 static const double small_force = 1.; /* N, see power.h */
@@ -55,8 +54,8 @@ static gm_power sliding_speed(const gm_mesh_law *law, double v_t)
     if (v_t >= max_pitch_speed)
         return (gm_power){law->sliding_ratio * max_pitch_speed, 0.};
     double v = law->sliding_ratio * v_t;
-    if (v <= min_sliding_speed)
-        return (gm_power){min_sliding_speed, 0.};
+    if (v <= GM_MESH_MIN_SLIDING_SPEED)
+        return (gm_power){GM_MESH_MIN_SLIDING_SPEED, 0.};
     return (gm_power){v, law->sliding_ratio};
 }
 

@@ -53,6 +53,10 @@ typedef struct gm_mesh_law {
 gm_mesh_law gm_mesh_law_make(const gm_mesh *mesh, const gm_pair *pair, double roughness,
                              const gm_oil *oil);
 
+/** Below this sum speed v_SigmaC friction is that of the boundary regime: a kink of the
+ *  loss over speed [m/s]. */
+#define GM_MESH_MIN_SLIDING_SPEED 0.2
+
 typedef struct gm_mesh_share {
     double kappa; /* loss as a share of the power that enters the mesh, 0 <= kappa < 1 */
     double d_force; /* d kappa / dF_bt, 1/N */

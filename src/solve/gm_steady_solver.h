@@ -18,6 +18,9 @@ GM_NODISCARD gm_status gm_steady_solver_create(const gm_plant *plant,
                                                gm_steady_solver **solver, gm_error *error);
 void gm_steady_solver_destroy(gm_steady_solver *solver);
 
+/** The plant that the solver works on. */
+const gm_plant *gm_steady_solver_plant(const gm_steady_solver *solver);
+
 /** Forget the last solution, so that a grid line's results depend on the line alone. */
 void gm_steady_solver_restart(gm_steady_solver *solver);
 

@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The assembled gearset, as the files of this room share it.
+ */
+#ifndef GEARSET_H
+#define GEARSET_H
+
+#include "model/bearing.h"
+#include "model/drag.h"
+#include "model/gm_gearset.h"
+#include "model/mesh.h"
+#include "model/statics.h"
+
+/** A rotating body: every shaft with its fixed gears, then every idling gear. */
+typedef struct gm_body {
+    double inertia; /* kg.m2 */
+    double mass;    /* kg */
+} gm_body;
+
+/** A row of the assembly: deflection rate g[0] w(body[0]) + g[1] w(body[1]). */
+typedef struct gm_row {
+    int body[2];
+    double g[2];
+} gm_row;
+
+/** A mesh: base radii as row, friction acts on the rolling speed h . w with
+ *  h = (g0, -g1)/2, which in rigid motion is the speed along the line of action. */
+typedef struct gm_mesh_element {
+    gm_row row;
+    gm_pair pair;
+    gm_mesh_law law;
+    double cos_alpha_wt;
+    gm_contact contact[2]; /* what the normal force does to each wheel */
+} gm_mesh_element;
+
+/** A rolling bearing between two bodies, its loads from the row forces. */
+typedef struct gm_bearing_element {
+    gm_loss_kind kind;
+    const char *name;
+    int body, on; /* on = GM_HOUSING: relative to the housing */
+    gm_bearing_law law;
+    gm_load_row load;
+} gm_bearing_element;
+
+/** A drag of speed alone between two bodies. */
+typedef enum gm_drag_law {
+    GM_DRAG_SEAL,
+    GM_DRAG_GAP, /* Petroff: shaft gaps and open cones */
+    GM_DRAG_CHURNING
+} gm_drag_law;
+
+typedef struct gm_drag_element {
+    gm_loss_kind kind;
+    const char *name;
+    int body, on;
+    gm_drag_law law;
+    gm_seal_model seal;
+    double radius, length, clearance; /* seal: radius only */
+    gm_dip dip;
+} gm_drag_element;
+
+struct gm_gearset {
+    const gm_description *description;
+    gm_oil oil;
+    int n_bodies;
+    gm_body *bodies;
+    int *wheel_body; /* [n_wheels] */
+    int n_meshes;
+    gm_mesh_element *meshes;
+    int n_bearings; /* shaft bearings, then bearings of idling gears */
+    gm_bearing_element *bearings;
+    int n_drags;
+    gm_drag_element *drags;
+};
+
+/** Fill bodies and wheel_body. */
+GM_NODISCARD gm_status gm_bodies_make(gm_gearset *gearset, gm_error *error);
+
+/** Pitch mass of a wheel from its dimensions, or as given [kg]. */
+double gm_wheel_mass(const gm_description *description, const gm_wheel *wheel);
+
+/** Shaft mass, as given or from its segments [kg], and its centre along x [m]. */
+double gm_shaft_mass(const gm_shaft *shaft, double *centre);
+
+/** Speeds of all bodies over the independent speeds of a configuration. */
+typedef struct gm_configuration_rows {
+    int n_bodies;
+    int n_rows;        /* meshes, then one lock per engaged path */
+    int n_independent; /* output, then the paths in neutral */
+    int flange[GM_MAX_FLANGES];         /* flange of each independent speed */
+    gm_row lock[GM_MAX_INPUT_PATHS];
+    int n_locks;
+    double *speed_of;  /* [n_bodies][n_independent] */
+    double *balance;   /* A [n_bodies][n_bodies]: row forces and flange torques -> torques
+                          on the bodies */
+    double *inverse;   /* of A */
+} gm_configuration_rows;
+
+GM_NODISCARD gm_status gm_configuration_rows_make(const gm_gearset *gearset,
+                                                  const int *gear,
+                                                  gm_configuration_rows *rows,
+                                                  gm_error *error);
+void gm_configuration_rows_clear(gm_configuration_rows *rows);
+
+/** Body of a flange: 0 the output, 1 + p the input of path p. */
+int gm_flange_body(const gm_gearset *gearset, int flange);
+
+#endif

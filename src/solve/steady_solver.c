@@ -1,0 +1,242 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The steady experiment. The plant's own passes (friction from the last forces, then
+ * forces from the leaves to the root) bring the start near the solution and KINSOL
+ * finishes; what the passes already solved, KINSOL only confirms. Where the passes
+ * diverge (strong coupling), KINSOL starts from the better of the two points.
+ */
+#include "solve/gm_steady_solver.h"
+
+#include "base/alloc.h"
+#include "solve/sun.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Passes gain about two digits each on a layshaft gearset; two after the last solution of
+ * a grid line leave KINSOL one or two quadratic iterations. */
+#define PASSES_COLD 6
+#define PASSES_WARM 2
+#define RELATIVE_TOLERANCE 1e-12
+#define SMALLEST_TORQUE 1e-2 /* N.m: 1e-14 N.m is the rounding of the largest balances */
+#define ACCEPTED 100.0       /* residual over tolerance that still counts as solved: the
+                                line search cannot improve on rounding */
+
+struct gm_steady_solver {
+    const gm_plant *plant;
+    void *work;
+    gm_sun_newton *newton;
+    int n;
+    int gear[GM_MAX_INPUT_PATHS];
+    int configured, warm;
+    gm_steady_point point;
+    double *x, *f;
+};
+
+/* ---- the plant as a nonlinear system ---- */
+
+static int system_size(void *user)
+{
+    gm_steady_solver *s = user;
+    return s->plant->is->size(s->work);
+}
+
+static int system_entries(void *user)
+{
+    gm_steady_solver *s = user;
+    return s->plant->is->entries(s->work);
+}
+
+static void system_residual(void *user, const double *x, double *f)
+{
+    gm_steady_solver *s = user;
+    s->plant->is->residual(s->work, x, f);
+}
+
+static void system_pattern(void *user, int *column_start, int *row)
+{
+    gm_steady_solver *s = user;
+    s->plant->is->pattern(s->work, column_start, row);
+}
+
+static void system_jacobian(void *user, const double *x, double *value)
+{
+    gm_steady_solver *s = user;
+    s->plant->is->jacobian(s->work, x, value);
+}
+
+/* ---- life ---- */
+
+static gm_status make_newton(gm_steady_solver *s, gm_error *error)
+{
+    gm_sun_system system = {.n_max = s->n,
+                            .user = s,
+                            .size = system_size,
+                            .entries = system_entries,
+                            .residual = system_residual,
+                            .pattern = system_pattern,
+                            .jacobian = system_jacobian};
+    gm_sun_newton_destroy(s->newton);
+    s->newton = gm_sun_newton_create(&system);
+    gm_free(s->x);
+    gm_free(s->f);
+    s->x = gm_calloc((size_t)s->n, sizeof *s->x);
+    s->f = gm_calloc((size_t)s->n, sizeof *s->f);
+    if (!s->newton || !s->x || !s->f)
+        return gm_fail(error, GM_ERR_MEMORY, "out of memory");
+    return GM_OK;
+}
+
+gm_status gm_steady_solver_create(const gm_plant *plant, gm_steady_solver **solver,
+                                  gm_error *error)
+{
+    gm_steady_solver *s = gm_calloc(1, sizeof *s);
+    if (!s)
+        return gm_fail(error, GM_ERR_MEMORY, "out of memory");
+    s->plant = plant;
+    gm_status status = plant->is->work_create(plant->self, &s->work, error);
+    if (status != GM_OK) {
+        gm_free(s);
+        return status;
+    }
+    *solver = s;
+    return GM_OK;
+}
+
+void gm_steady_solver_destroy(gm_steady_solver *solver)
+{
+    if (!solver)
+        return;
+    gm_sun_newton_destroy(solver->newton);
+    solver->plant->is->work_destroy(solver->work);
+    gm_free(solver->x);
+    gm_free(solver->f);
+    gm_free(solver);
+}
+
+const gm_plant *gm_steady_solver_plant(const gm_steady_solver *solver)
+{
+    return solver->plant;
+}
+
+void gm_steady_solver_restart(gm_steady_solver *solver)
+{
+    solver->warm = 0;
+}
+
+void *gm_steady_solver_work(gm_steady_solver *solver, const double **x)
+{
+    *x = solver->x;
+    return solver->work;
+}
+
+/* ---- one point ---- */
+
+static int same_gears(const gm_steady_solver *s, const gm_steady_point *point)
+{
+    for (int p = 0; p < s->plant->info.n_paths; p++)
+        if (s->gear[p] != point->gear[p])
+            return 0;
+    return s->configured;
+}
+
+static gm_status configure(gm_steady_solver *s, const gm_steady_point *point,
+                           gm_error *error)
+{
+    if (same_gears(s, point))
+        return GM_OK;
+    int n = s->plant->is->size(s->work);
+    s->configured = s->warm = 0;
+    if (n != s->n || !s->newton) {
+        s->n = n;
+        gm_status status = make_newton(s, error);
+        if (status != GM_OK) {
+            s->n = 0;
+            return status;
+        }
+    }
+    if (gm_sun_newton_pattern_changed(s->newton))
+        return gm_fail(error, GM_ERR_MEMORY, "out of memory for the solver: %s",
+                       gm_sun_newton_message(s->newton));
+    memcpy(s->gear, point->gear, sizeof s->gear);
+    s->configured = 1;
+    return GM_OK;
+}
+
+static double largest_torque(const gm_steady_solver *s)
+{
+    gm_steady_result result;
+    double largest = SMALLEST_TORQUE;
+    s->plant->is->result(s->work, s->x, &result);
+    for (int flange = 0; flange <= s->plant->info.n_paths; flange++)
+        largest = fmax(largest, fabs(result.torque[flange]));
+    return largest;
+}
+
+static double residual_norm(gm_steady_solver *s)
+{
+    double norm = 0.0;
+    s->plant->is->residual(s->work, s->x, s->f);
+    for (int i = 0; i < s->n; i++)
+        norm = isfinite(s->f[i]) ? fmax(norm, fabs(s->f[i])) : HUGE_VAL;
+    return norm;
+}
+
+static void predict(gm_steady_solver *s, int passes)
+{
+    for (int i = 0; i < passes; i++)
+        if (s->plant->is->pass(s->work, s->x) < RELATIVE_TOLERANCE)
+            return;
+}
+
+/* True when the residual is at the tolerance, after KINSOL has had its turn. */
+static int finish(gm_steady_solver *s)
+{
+    double tolerance = RELATIVE_TOLERANCE * largest_torque(s);
+    (void)gm_sun_newton_solve(s->newton, tolerance, s->x);
+    return residual_norm(s) <= ACCEPTED * tolerance;
+}
+
+static int solve_from(gm_steady_solver *s, int passes)
+{
+    predict(s, passes);
+    if (!(residual_norm(s) < HUGE_VAL)) {
+        memset(s->x, 0, (size_t)s->n * sizeof *s->x);
+        predict(s, 1);
+    }
+    return finish(s);
+}
+
+static gm_status no_convergence(const gm_steady_solver *s, gm_error *error)
+{
+    const gm_steady_point *p = &s->point;
+    return gm_fail(error, GM_ERR_SOLVE,
+                   "%s: no steady state found for gears (%d, %d), output speed %g rad/s, "
+                   "input speeds (%g, %g) rad/s, input torques (%g, %g) N.m%s%s",
+                   s->plant->info.name, p->gear[0], p->gear[1], p->speed[0], p->speed[1],
+                   p->speed[2], p->torque[1], p->torque[2],
+                   gm_sun_newton_message(s->newton)[0] ? "; " : "",
+                   gm_sun_newton_message(s->newton));
+}
+
+gm_status gm_steady_solve(gm_steady_solver *solver, const gm_steady_point *point,
+                          gm_steady_result *result, gm_error *error)
+{
+    gm_steady_solver *s = solver;
+    s->point = *point;
+    gm_status status = s->plant->is->set_point(s->work, point, error);
+    if (status == GM_OK)
+        status = configure(s, point, error);
+    if (status != GM_OK)
+        return status;
+    int solved = s->warm && solve_from(s, PASSES_WARM);
+    if (!solved) {
+        memset(s->x, 0, (size_t)s->n * sizeof *s->x);
+        solved = solve_from(s, PASSES_COLD);
+    }
+    s->warm = solved;
+    if (!solved)
+        return no_convergence(s, error);
+    s->plant->is->result(s->work, s->x, result);
+    return GM_OK;
+}
