@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-2-Clause
+# From a bare Debian or Ubuntu machine to a simulated FMU: installs what is missing,
+# builds, reduces the 7-speed dual-clutch example, simulates it, prints a summary.
+set -euo pipefail
+cd "$(dirname "$0")"
+. tools/setup.sh
+start=$SECONDS
+
+gm_install_packages "${gm_build_packages[@]}"
+gm_make_venv build/venv tools/requirements.txt
+gm_build build -DCMAKE_BUILD_TYPE=Release -DGM_BUILD_TESTS=OFF -DGM_BUILD_BENCH=OFF \
+  -DGM_PYTHON="$PWD/build/venv/bin/python"
+
+gm_say "reducing examples/dct7.yaml"
+build/gearmap reduce examples/dct7.yaml -o build/dct7.fmu --map build/dct7.map
+
+gm_say "simulating build/dct7.fmu"
+build/venv/bin/python examples/simulate.py build/dct7.fmu build/dct7.csv
+
+gm_say "done in $((SECONDS - start)) s: build/dct7.fmu, build/dct7.map, build/dct7.csv"
