@@ -3,6 +3,10 @@
  * Rolling bearing friction: one entry for the two models, SKF (bearing_skf.c) and
  * Palmgren (bearing_palmgren.c). What depends on speed alone is computed once per speed
  * and used for every load.
+ *
+ * Both are the friction of the rolling and sliding contacts in a low oil bath; contact
+ * seals (drag.h: gm_seal_torque) and the extra drag of deeply flooded bearings are not
+ * in.
  */
 #ifndef BEARING_H
 #define BEARING_H
@@ -10,46 +14,72 @@
 #include "model/friction.h"
 #include "model/oil.h"
 
-/** Constants of the SKF model for one bearing (General Catalogue; mixed units, mm). */
+/** What the SKF model needs of one bearing in one oil, powers taken; mixed units of the
+ *  catalogue (N, mm, rpm, mm2/s). Fields of other types are 0. */
 typedef struct gm_skf {
-    double R1, R2, R3, S1, S2, S3;
-    double K_Z;
+    double k_rr;       /* R_1 d_m^p */
+    double k_rr_axial; /* weight of F_a in the rolling load: R_2, tapered R_2 Y */
+    double k_sl;       /* S_1 d_m^p; deep groove ball: at F_a = 0 */
+    double
+        k_sl_axial; /* weight of F_a in the sliding load; deep groove ball: S_2 d_m^1.5 */
+    double k_sl_both; /* deep groove ball: S_1 d_m^-0.145, at F_a > 0 */
+    double F_g_rr;    /* angular contact: R_3 d_m^4, centrifugal load by n^2 */
+    double F_g_sl;    /* angular contact: S_3 d_m^4 */
+    double F_small;   /* deep groove ball: below, F_a / sin alpha_F is a parabola ... */
+    double small[2];  /* ... small[0] F_a + small[1] F_a^2 */
+    double ish;       /* inlet shear heating: 1.84e-9 d_m^1.28 nu^0.64 */
+    double rs;        /* starvation: K_rs nu (d + D) sqrt(K_Z / (2 (D - d))) */
+    double bl;        /* boundary lubrication: 2.6e-8 d_m nu^1.4 */
     double mu_EHL;
-    /* powers of d_m and the like that never change, filled once */
-    double rr, sl_0, sl_a, d_m; /* meaning per type: see bearing_skf.c */
 } gm_skf;
+
+/** What the Palmgren model needs, in N, N.mm, mm2/s, rpm. */
+typedef struct gm_palmgren {
+    double viscous;        /* 1e-7 f_0 d_m^3 */
+    double load, exponent; /* M_1 = load P_1 (P_0 / C_0)^exponent */
+    double axial;          /* f_2 d_m */
+} gm_palmgren;
 
 /** A bearing ready for evaluation: its data, its constants and its oil. */
 typedef struct gm_bearing_law {
     gm_bearing_data data;
-    gm_skf skf;
-    double f0, f1_factor, f1_exponent, C0;
     double nu; /* mm2/s */
+    gm_skf skf;
+    gm_palmgren palmgren;
 } gm_bearing_law;
 
-/** Factors at one speed. */
+/** Factors at one speed w [rad/s]; d_ are derivatives by w. */
 typedef struct gm_bearing_speed {
-    double w;             /* rad/s, >= 0 */
-    double rolling, d_rolling; /* SKF: phi_ish phi_rs (nu n)^0.6; Palmgren: M_0 [N.m] */
+    double w;                  /* >= 0 */
+    double rolling, d_rolling; /* SKF: phi_ish phi_rs (nu n)^0.6; Palmgren: M_0 [N.mm] */
     double sliding, d_sliding; /* SKF: mu_sl */
-    double n;             /* rpm */
+    double F_g_rr, d_F_g_rr;   /* SKF angular contact: centrifugal load [N], rolling */
+    double F_g_sl, d_F_g_sl;   /* and sliding */
 } gm_bearing_speed;
 
-/** Look up designation and series constants, defaults of the type. GM_ERR_MODEL with a
- *  sentence (without file and line: the caller adds them) when the designation or series
- *  is unknown. mu_ehl as in gm_oil. */
+/** Look up designation and series constants, defaults of the type. A designation, where
+ *  given, decides over the dimensions. GM_ERR_MODEL with a sentence (without file and
+ *  line: the caller adds them) when the designation or series is unknown or a number
+ *  that the friction model needs is missing; *law is untouched then. oil: nu, and
+ *  bearing_mu_ehl for ball bearings. */
 GM_NODISCARD gm_status gm_bearing_law_make(const gm_bearing_data *data, const gm_oil *oil,
                                            gm_bearing_law *law, gm_error *error);
 
-/** Fill d, D, B, C0, f0 and series of a bearing from its designation (deep groove ball
- *  bearings of bearing_catalogue.c). GM_ERR_MODEL when it is not in the catalogue. */
+/** Fill d, D, B, C0 and series of a bearing from its designation (deep groove ball
+ *  bearings of bearing_catalogue.c). GM_ERR_MODEL when it is not in the catalogue; *data
+ *  is untouched then. */
 GM_NODISCARD gm_status gm_bearing_data_complete(gm_bearing_data *data, gm_error *error);
+
+/** Name of a type, such as "deep groove ball bearing". */
+const char *gm_bearing_type_name(gm_bearing_type type);
 
 /** Factors at speed w >= 0 [rad/s]; w = 0 is the one-sided limit w -> 0+. */
 gm_bearing_speed gm_bearing_at_speed(const gm_bearing_law *law, double w);
 
-/** Friction torque at that speed under loads [N] >= 0, with derivatives. */
+/** Friction torque at that speed under loads [N] >= 0, with derivatives. Continuous and
+ *  finite for all arguments, exact derivatives between the kinks the sources have. */
 gm_bearing_torque gm_bearing_friction(const gm_bearing_law *law,
-                                      const gm_bearing_speed *speed, double F_r, double F_a);
+                                      const gm_bearing_speed *speed, double F_r,
+                                      double F_a);
 
 #endif

@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * Entry to rolling bearing friction: checks what a model needs of a bearing, and hands on
+ * to the model. GM_FRICTION_NONE supports its shaft without friction.
+ */
+#include "model/bearing.h"
+
+#include "model/bearing_models.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+const char *gm_bearing_type_name(gm_bearing_type type)
+{
+    switch (type) {
+    case GM_BEARING_DEEP_GROOVE_BALL:
+        return "deep groove ball bearing";
+    case GM_BEARING_ANGULAR_CONTACT_BALL:
+        return "angular contact ball bearing";
+    case GM_BEARING_CYLINDRICAL_ROLLER:
+        return "cylindrical roller bearing";
+    case GM_BEARING_NEEDLE_ROLLER:
+        return "needle roller bearing";
+    case GM_BEARING_TAPERED_ROLLER:
+        break;
+    }
+    return "tapered roller bearing";
+}
+
+/* The static load rating appears in the contact angle of deep groove ball bearings (SKF)
+ * and in the default f_1 of ball bearings (Palmgren). */
+static bool needs_C0(const gm_bearing_data *data)
+{
+    if (data->friction == GM_FRICTION_SKF)
+        return data->type == GM_BEARING_DEEP_GROOVE_BALL;
+    return isnan(data->f1) && (data->type == GM_BEARING_DEEP_GROOVE_BALL ||
+                               data->type == GM_BEARING_ANGULAR_CONTACT_BALL);
+}
+
+static gm_status check(const gm_bearing_data *data, gm_error *error)
+{
+    const char *kind = gm_bearing_type_name(data->type);
+    if (!(data->d > 0. && data->D > data->d))
+        return gm_fail(error, GM_ERR_MODEL,
+                       "a %s needs 0 < d < D, but d is %g mm and D is %g mm", kind,
+                       1e3 * data->d, 1e3 * data->D);
+    if (data->type == GM_BEARING_TAPERED_ROLLER && !(data->Y > 0.))
+        return gm_fail(error, GM_ERR_MODEL, "a %s needs its axial factor Y > 0", kind);
+    if (needs_C0(data) && !(data->C0 > 0.))
+        return gm_fail(error, GM_ERR_MODEL, "a %s needs its static load rating C0 > 0",
+                       kind);
+    return GM_OK;
+}
+
+gm_status gm_bearing_law_make(const gm_bearing_data *data, const gm_oil *oil,
+                              gm_bearing_law *law, gm_error *error)
+{
+    gm_bearing_law made = {.data = *data, .nu = 1e6 * oil->nu};
+    gm_status status = GM_OK;
+    if (data->designation[0] != '\0')
+        status = gm_bearing_data_complete(&made.data, error);
+    if (status == GM_OK && data->friction != GM_FRICTION_NONE)
+        status = check(&made.data, error);
+    if (status == GM_OK && data->friction == GM_FRICTION_PALMGREN)
+        gm_palmgren_make(&made);
+    if (status == GM_OK && data->friction == GM_FRICTION_SKF) {
+        const gm_skf_row *row;
+        status = gm_skf_find(made.data.type, made.data.series, &row, error);
+        if (status == GM_OK)
+            gm_skf_make(&made, row, oil->bearing_mu_ehl);
+    }
+    if (status == GM_OK)
+        *law = made;
+    return status;
+}
+
+gm_bearing_speed gm_bearing_at_speed(const gm_bearing_law *law, double w)
+{
+    switch (law->data.friction) {
+    case GM_FRICTION_SKF:
+        return gm_skf_at_speed(law, w);
+    case GM_FRICTION_PALMGREN:
+        return gm_palmgren_at_speed(law, w);
+    case GM_FRICTION_NONE:
+        break;
+    }
+    return (gm_bearing_speed){.w = w};
+}
+
+gm_bearing_torque gm_bearing_friction(const gm_bearing_law *law,
+                                      const gm_bearing_speed *speed, double F_r,
+                                      double F_a)
+{
+    switch (law->data.friction) {
+    case GM_FRICTION_SKF:
+        return gm_skf_friction(law, speed, F_r, F_a);
+    case GM_FRICTION_PALMGREN:
+        return gm_palmgren_friction(law, speed, F_r, F_a);
+    case GM_FRICTION_NONE:
+        break;
+    }
+    return (gm_bearing_torque){0};
+}

@@ -1,0 +1,200 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+#include "bearing_cases.h"
+
+#include "model/bearing_models.h"
+
+/* Every intermediate value of a point, in the model's units. */
+typedef struct skf_case {
+    double F_r, F_a, n;
+    double G_rr, G_sl, phi_ish, phi_rs, phi_bl, mu_sl, M_rr, M_sl, M;
+} skf_case;
+
+static void check_case(const gm_bearing_law *law, const skf_case *c)
+{
+    gm_skf_phi phi = gm_skf_factors(law, c->n);
+    gm_bearing_speed speed = gm_bearing_at_speed(law, c->n * rpm);
+    gm_skf_loads g = gm_skf_at_loads(law, &speed, c->F_r, c->F_a);
+    check_close("phi_ish", phi.ish, c->phi_ish, 1e-6);
+    check_close("phi_rs", phi.rs, c->phi_rs, 1e-6);
+    check_close("phi_bl", phi.bl, c->phi_bl, 1e-6);
+    check_close("mu_sl", speed.sliding, c->mu_sl, 1e-6);
+    check_close("G_rr", g.G_rr, c->G_rr, 1e-6);
+    check_close("G_sl", g.G_sl, c->G_sl, 1e-6);
+    check_close("M_rr", speed.rolling * g.G_rr, c->M_rr, 1e-6);
+    check_close("M_sl", speed.sliding * g.G_sl, c->M_sl, 1e-6);
+    double M = gm_bearing_friction(law, &speed, c->F_r, c->F_a).value;
+    check_close("M", 1e3 * M, c->M, 1e-6);
+}
+
+/* The formulas of the catalogue, evaluated once independently with seven digits. */
+static void ball_bearing_6206(void **state)
+{
+    (void)state;
+    gm_bearing_data data = {.type = GM_BEARING_DEEP_GROOVE_BALL,
+                            .friction = GM_FRICTION_SKF,
+                            .designation = "6206"};
+    gm_bearing_law law = bearing_in_oil(data, 15., 0.05);
+    skf_case radial = {.F_r = 2000.,
+                       .n = 3000.,
+                       .G_rr = 0.04291668,
+                       .G_sl = 378.9677,
+                       .phi_ish = 0.962004,
+                       .phi_rs = 0.9730356,
+                       .phi_bl = 0.02003113,
+                       .mu_sl = 0.05140218,
+                       .M_rr = 24.88051,
+                       .M_sl = 19.47976,
+                       .M = 44.36027};
+    check_case(&law, &radial);
+    skf_case both = radial;
+    both.F_a = 500.;
+    both.G_rr = 0.07908889, both.G_sl = 609.4352;
+    both.M_rr = 45.85098, both.M_sl = 31.3263, both.M = 77.17728;
+    check_case(&law, &both);
+}
+
+/* SKF's quick estimate 0.5 mu P d, mu = 0.0015 for deep groove ball bearings at P = 0.1 C
+ * and good lubrication: an order of magnitude, here within a quarter. */
+static void agrees_with_the_quick_estimate(void **state)
+{
+    (void)state;
+    gm_bearing_data data = {.type = GM_BEARING_DEEP_GROOVE_BALL,
+                            .friction = GM_FRICTION_SKF,
+                            .designation = "6206"};
+    bearing_point p = {bearing_in_oil(data, 15., 0.05), 3000. * rpm, 2000., 0.};
+    check_close("M", torque_at(&p).value, 0.5 * 0.0015 * 2000. * 0.030, 0.25);
+}
+
+static void tapered_bearing_30206(void **state)
+{
+    (void)state;
+    gm_bearing_data data = bearing_of(GM_BEARING_TAPERED_ROLLER, GM_FRICTION_SKF);
+    gm_bearing_law law = bearing_in_oil(data, 15., 0.05);
+    skf_case c = {.F_r = 3000.,
+                  .F_a = 1500.,
+                  .n = 2000.,
+                  .G_rr = 0.3863318,
+                  .G_sl = 3061.998,
+                  .phi_ish = 0.9770346,
+                  .phi_rs = 0.9749664,
+                  .phi_bl = 0.1089714,
+                  .mu_sl = 0.01485863,
+                  .M_rr = 178.7034,
+                  .M_sl = 45.4971,
+                  .M = 224.2005};
+    check_case(&law, &c);
+}
+
+/* By hand for d_m = 46, F_r = 1000, F_a = 500 N at rest: cylindrical roller series 2
+ * G_sl = 0.16 * 46^0.9 * 500 + 0.0015 * 46 * 1000; angular contact 72xx BECBP
+ * G_sl = 0.0182 * 46^0.26 * (1000^(4/3) + 0.71 * 500^(4/3)). */
+static void other_types_by_hand(void **state)
+{
+    (void)state;
+    gm_bearing_data data = bearing_of(GM_BEARING_CYLINDRICAL_ROLLER, GM_FRICTION_SKF);
+    gm_bearing_law law = bearing_in_oil(data, 15., 0.05);
+    gm_bearing_speed rest = gm_bearing_at_speed(&law, 0.);
+    gm_skf_loads g = gm_skf_at_loads(&law, &rest, 1000., 500.);
+    check_close("G_sl cylindrical", g.G_sl, 2509.414 + 69., 1e-4); /* 46^0.9 = 31.36767 */
+    /* 1.09e-6 * 46^2.41 * 1000^0.31 = 1.09e-6 * 10168 * 8.51138 */
+    check_close("G_rr cylindrical", g.G_rr, 0.094332, 1e-3);
+    data = bearing_of(GM_BEARING_NEEDLE_ROLLER, GM_FRICTION_SKF);
+    gm_bearing_law needle = bearing_in_oil(data, 15., 0.05);
+    /* full complement constants: R_1 2.13e-6 in place of 1.09e-6, more starvation */
+    check_close("needle", needle.skf.k_rr / law.skf.k_rr, 2.13 / 1.09, 1e-12);
+    check_close("K_Z", needle.skf.rs / law.skf.rs, sqrt(6.2 / 5.1), 1e-12);
+    data = bearing_of(GM_BEARING_ANGULAR_CONTACT_BALL, GM_FRICTION_SKF);
+    law = bearing_in_oil(data, 15., 0.05);
+    g = gm_skf_at_loads(&law, &rest, 1000., 500.);
+    /* 0.0182 * 2.70580 * (10000 + 0.71 * 3968.503) */
+    check_close("G_sl angular", g.G_sl, 631.21, 1e-4);
+    gm_bearing_speed fast = gm_bearing_at_speed(&law, 3000. * rpm);
+    /* 2.44e-12 * 46^4 * 3000^2 = 98.33 N of centrifugal force */
+    check_close("F_g", fast.F_g_rr, 98.326, 1e-4);
+}
+
+static void boundary_friction_rules_at_rest(void **state)
+{
+    (void)state;
+    for (int type = 0; type < 5; type++) {
+        gm_bearing_data data = bearing_of((gm_bearing_type)type, GM_FRICTION_SKF);
+        gm_bearing_law law = bearing_in_oil(data, 15., 0.05);
+        gm_bearing_speed rest = gm_bearing_at_speed(&law, 0.);
+        assert_true(rest.rolling == 0. && rest.sliding == 0.12);
+        gm_skf_loads g = gm_skf_at_loads(&law, &rest, 700., 300.);
+        double M = gm_bearing_friction(&law, &rest, 700., 300.).value;
+        check_close("break-away", M, 1e-3 * 0.12 * g.G_sl, 1e-13);
+        gm_bearing_speed fast = gm_bearing_at_speed(&law, 3000.);
+        static const double mu[] = {0.05, 0.05, 0.02, 0.02, 0.002};
+        check_close("full film", fast.sliding, mu[type], 1e-2);
+    }
+}
+
+/* The formulas for F_a = 0 and F_a > 0, each untouched at its end of the blend. */
+static void axial_load_of_ball_bearings_enters_smoothly(void **state)
+{
+    (void)state;
+    gm_bearing_data data = bearing_of(GM_BEARING_DEEP_GROOVE_BALL, GM_FRICTION_SKF);
+    gm_bearing_law law = bearing_in_oil(data, 15., 0.05);
+    gm_bearing_speed rest = gm_bearing_at_speed(&law, 0.);
+    double before = 0., end = 0.002 * data.C0, F_r = 2000.;
+    for (int i = 0; i <= 200; i++) {
+        double G = gm_skf_at_loads(&law, &rest, F_r, end * i / 200.).G_sl;
+        assert_true(G > before);
+        before = G;
+    }
+    double radial = 3.23e-3 * pow(46., -0.26) * pow(F_r, 5. / 3.);
+    check_close("F_a = 0", gm_skf_at_loads(&law, &rest, F_r, 0.).G_sl, radial, 1e-12);
+    double alpha = 24.6 * pow(0.002, 0.24) * GM_PI / 180.;
+    double sum = pow(F_r, 5.) + 36.5 * pow(46., 1.5) / sin(alpha) * pow(end, 4.);
+    double both = 3.23e-3 * pow(46., -0.145) * cbrt(sum);
+    check_close("end", gm_skf_at_loads(&law, &rest, F_r, end).G_sl, both, 1e-12);
+    check_close("ratio", both / radial, pow(46., 0.115), 1e-2);
+}
+
+static void friction_rises_with_both_loads(void **state)
+{
+    (void)state;
+    uint64_t seed = 10;
+    for (int i = 0; i < 20000; i++) {
+        bearing_point p =
+            random_bearing((gm_bearing_type)(i % 5), GM_FRICTION_SKF, &seed);
+        gm_bearing_torque M = torque_at(&p);
+        assert_true(M.d_radial >= 0. && M.d_axial >= 0.);
+    }
+}
+
+static void derivatives_are_exact(void **state)
+{
+    (void)state;
+    check_derivatives(GM_FRICTION_SKF, 5000);
+}
+
+static void torque_has_no_jumps(void **state)
+{
+    (void)state;
+    check_no_jumps(GM_FRICTION_SKF, 20);
+}
+
+static void limits_at_zero_are_finite(void **state)
+{
+    (void)state;
+    check_limits_at_zero(GM_FRICTION_SKF);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(ball_bearing_6206),
+        cmocka_unit_test(agrees_with_the_quick_estimate),
+        cmocka_unit_test(tapered_bearing_30206),
+        cmocka_unit_test(other_types_by_hand),
+        cmocka_unit_test(boundary_friction_rules_at_rest),
+        cmocka_unit_test(axial_load_of_ball_bearings_enters_smoothly),
+        cmocka_unit_test(friction_rises_with_both_loads),
+        cmocka_unit_test(derivatives_are_exact),
+        cmocka_unit_test(torque_has_no_jumps),
+        cmocka_unit_test(limits_at_zero_are_finite),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
