@@ -11,15 +11,17 @@
 #include "model/oil.h"
 
 /** Radial shaft seal of shaft diameter d [m]. ISO/TR 14179-2: P = 7.69e-6 d^2 n (W, mm,
- *  rpm), a constant torque; ISO/TR 14179-1: T = 3.737e-3 d (FPM) or 2.429e-3 d (NBR);
- *  Linke: depends on temperature and oil. */
-gm_speed_torque gm_seal_torque(gm_seal_model model, double d, const gm_oil *oil, double w);
+ *  rpm); ISO/TR 14179-1: T = 3.737e-3 d (FPM) or 2.429e-3 d (NBR) (N.m, mm); Linke:
+ *  depends on oil->temperature and oil->nu_40. None of them depends on speed. */
+gm_speed_torque gm_seal_torque(gm_seal_model model, double d, const gm_oil *oil,
+                               double w);
 
 /** Petroff's law for a gap: radius r, length L, clearance c [m]: 2 pi eta w r^3 L / c. */
-gm_speed_torque gm_petroff_torque(double r, double L, double c, const gm_oil *oil, double w);
+gm_speed_torque gm_petroff_torque(double r, double L, double c, const gm_oil *oil,
+                                  double w);
 
 /** A gear in the oil bath: pitch radius R_p, face width b, immersion depth h, volume V_0
- *  of the bath [m, m3]. */
+ *  of the bath [m, m3], R_p, b and V_0 > 0. */
 typedef struct gm_dip {
     double R_p, b, h, V_0;
 } gm_dip;
