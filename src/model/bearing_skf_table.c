@@ -141,7 +141,7 @@ static gm_status unknown_series(gm_bearing_type type, const char *series,
     const char *names[MAX_ROWS];
     char known[512] = "";
     size_t used = 0;
-    for (int i = 0; i < n && i < MAX_ROWS; i++) {
+    for (int i = 0; i < n && i < MAX_ROWS && used < sizeof known; i++) {
         names[i] = rows[i].series;
         int length = snprintf(known + used, sizeof known - used, "%s%s",
                               i > 0 ? ", " : "", names[i]);

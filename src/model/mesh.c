@@ -19,7 +19,7 @@
 #include <math.h>
 
 static const double exponent = 0.2;
-static const double max_pitch_speed = 50.;   /* m/s */
+static const double max_pitch_speed = 50.; /* m/s */
 static const double max_mu = 0.12;
 static const double small_force = 1.; /* N, see power.h */
 

@@ -9,11 +9,11 @@
 #include "model/gm_description.h"
 
 typedef struct gm_oil {
-    double nu;           /* kinematic viscosity, m2/s */
-    double rho;          /* density, kg/m3 */
-    double eta;          /* dynamic viscosity, Pa.s */
-    double nu_40;        /* kinematic viscosity at 40 degC, m2/s */
-    double temperature;  /* K */
+    double nu;          /* kinematic viscosity, m2/s */
+    double rho;         /* density, kg/m3 */
+    double eta;         /* dynamic viscosity, Pa.s */
+    double nu_40;       /* kinematic viscosity at 40 degC, m2/s */
+    double temperature; /* K */
     double mesh_lubricant_factor;
     double bearing_mu_ehl;
 } gm_oil;

@@ -135,6 +135,9 @@ static void ring_gear_by_hand(void **state)
     check_close("eps_2", p.eps[1], 1.18605, 1e-5);
     /* 0.5 sin 20 deg / (1/42 - 1/114) mm */
     check_close("rho", gm_pair_curvature(&p), 11.3714e-3, 1e-4);
+    /* the same by its given centre distance; acos loses some digits */
+    gm_pair given = gm_pair_make(z, 2e-3, 20. * degree, 0., x, 0.02, 36e-3);
+    check_close("alpha_wt", given.alpha_wt, 20. * degree, 1e-12);
     /* internal contact: fewer sliding losses than the same teeth outside */
     const int outside[2] = {21, 57};
     gm_pair o = gm_pair_make(outside, 2e-3, 20. * degree, 0., x, 0.02, 0.);
