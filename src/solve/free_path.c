@@ -21,9 +21,13 @@ typedef struct search {
     gm_error *error;
 } search;
 
-/* Torque at the free flange at speed w, on the side `way` of it. */
+/* Torque at the free flange at speed w, on the side `way` of it: only this flange moves
+ * on, so that the limit on a line of synchronous speed is its own. */
 static gm_status torque_at(search *s, double w, double way, double *torque)
 {
+    for (int i = 0; i < GM_MAX_FLANGES; i++)
+        if (s->point->speed[i] != 0.0)
+            s->point->direction[i] = 0.0;
     s->point->speed[s->flange] = w;
     s->point->direction[s->flange] = way;
     gm_status status = gm_steady_solve(s->solver, s->point, s->result, s->error);
