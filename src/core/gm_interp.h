@@ -2,12 +2,12 @@
  *
  * Linear interpolation in one, two and three dimensions over strictly increasing axes.
  *
- * A query remembers its cell: while the operating point stays inside, neither a search nor
- * a read of the table is needed, only the cell's multilinear coefficients. Value and
- * gradient come from the same coefficients, so they agree everywhere. At an inner node the
- * cell above is used; the last node belongs to the last cell. Outside the axes the query
- * is clamped to the edge, the gradient in that direction is zero, and the call tells so.
- * An axis of one node is a constant in that direction, without bounds.
+ * A query remembers its cell: while the operating point stays inside, neither a search
+ * nor a read of the table is needed, only the cell's multilinear coefficients. Value and
+ * gradient come from the same coefficients, so they agree everywhere. At an inner node
+ * the cell above is used; the last node belongs to the last cell. Outside the axes the
+ * query is clamped to the edge, the gradient in that direction is zero, and the call
+ * tells so. An axis of one node is a constant in that direction, without bounds.
  *
  * Only + - * / and comparisons: the same bits on every platform (-ffp-contract=off).
  * NaN queries are the caller's error and are refused before they come here.
@@ -53,7 +53,8 @@ typedef struct gm_cell1 {
 typedef struct gm_cell2 {
     int table;
     gm_real x_low, x_high, y_low, y_high;
-    gm_real c0, cx, cy, cxy; /* c0 + cx u + cy v + cxy u v, u = x - x_low, v = y - y_low */
+    gm_real c0, cx, cy,
+        cxy; /* c0 + cx u + cy v + cxy u v, u = x - x_low, v = y - y_low */
 } gm_cell2;
 
 typedef struct gm_value1 {
@@ -80,7 +81,8 @@ int gm_axis_find(const gm_axis *axis, gm_real q);
 gm_value1 gm_table1_at(const gm_table1 *t, int table, gm_cell1 *cell, gm_real x);
 
 /** Value and gradient at (x, y); cell as above. */
-gm_value2 gm_table2_at(const gm_table2 *t, int table, gm_cell2 *cell, gm_real x, gm_real y);
+gm_value2 gm_table2_at(const gm_table2 *t, int table, gm_cell2 *cell, gm_real x,
+                       gm_real y);
 
 /** Value and gradient at (x, y, z), without a cache (used only while both paths carry
  *  load). */

@@ -48,8 +48,11 @@ typedef struct gm_gear {
 } gm_gear;
 
 /** A line w_n = ratio * w_o of the (w_n, w_o) plane, on which the drag of one idling gear
- *  changes sign: N jumps by +jump, R by -ratio * jump when w_n grows past it. Within
- *  GM_LINE_WIDTH of the line the jump is a ramp. */
+ *  changes sign: N jumps by +jump, R by -ratio * jump when w_n grows past it. The tables
+ *  drag and reaction hold the rest, after subtraction of the exact jumps
+ *  jump/2 sgn(w_n - r w_o) and -ratio jump/2 [sgn(w_n - r w_o) + sgn(r w_o)]. When used,
+ *  sgn(x) becomes a ramp of slope 1/GM_LINE_WIDTH between -1 and +1: closer than
+ *  GM_LINE_WIDTH to a line the idler's drag is too small, farther away it is exact. */
 typedef struct gm_drag_line {
     gm_real ratio;
     gm_table1 jump[2]; /* by direction of w_o: x |w_o| [rad/s] -> N.m, >= 0 */
@@ -64,7 +67,9 @@ typedef struct gm_path {
     int n_gears;
     const gm_gear *gears; /* [n_gears] */
     /* Smooth parts of N and R by [direction of w_n][direction of w_o]:
-       x |w_n|, y |w_o| [rad/s] -> N.m at the input flange, at the output. R(0, w_o) = 0. */
+       x |w_n|, y |w_o| [rad/s] -> N.m at the input flange, at the output; signed: N > 0
+       brakes a shaft that turns forward. N is continuous across w_o = 0, R(0, w_o) = 0.
+     */
     gm_table2 drag[2][2];
     gm_table2 reaction[2][2];
     int n_lines;
@@ -76,16 +81,17 @@ typedef struct gm_configuration {
     int gear[GM_MAX_PATHS];
     gm_table1 parasitic[2];   /* P_s by direction of w_o: x |w_o| -> N.m at the output,
                                  neutral shafts at rest, C not included */
-    gm_table3 both_loaded[2]; /* X_s by direction of w_o: x |w_o|, y and z torque of path 0
-                                 and 1 in their direction of rotation -> N.m at the output,
-                                 signed. value = NULL: zero */
+    gm_table3 both_loaded[2]; /* X_s by direction of w_o: x |w_o|, y and z torque of path
+                                 0 and 1 in their direction of rotation -> N.m at the
+                                 output, signed. value = NULL: zero */
 } gm_configuration;
 
 /** Everything a gearset is reduced to. Constant; may live in flash. */
 typedef struct gm_reduced_map {
     int n_paths; /* 1 or 2 */
     gm_path path[GM_MAX_PATHS];
-    /* Index of (g0, g1): (g0 + 1) * (path[1].n_gears + 1) + g1 + 1; for one path g0 + 1. */
+    /* Index of (g0, g1): (g0 + 1) * (path[1].n_gears + 1) + g1 + 1; for one path g0 + 1.
+     */
     int n_configurations;
     const gm_configuration *configurations;
     gm_table1 coupling;     /* C: x relative speed w_0 - w_1, signed [rad/s] -> N.m; zero
@@ -107,7 +113,7 @@ typedef struct gm_reduced_params {
 
 /** Inputs, constant or linear over a step. Torques act into the gearset. */
 typedef struct gm_reduced_inputs {
-    gm_real output_tau, output_tau_rate;                       /* N.m, N.m/s */
+    gm_real output_tau, output_tau_rate; /* N.m, N.m/s */
     gm_real path_tau[GM_MAX_PATHS], path_tau_rate[GM_MAX_PATHS];
     int gear[GM_MAX_PATHS];  /* commanded gear numbers */
     gm_real oil_temperature; /* K; without effect while maps have no such axis */
@@ -120,34 +126,45 @@ typedef struct gm_path_state {
     int gear;       /* index of the gear engaged or being synchronised; -1 in neutral */
 } gm_path_state;
 
+#define GM_CACHED_LINES                                                                  \
+    8 /* of a path; drag lines beyond are looked up without a cache                      \
+       */
+
+/** Interpolation caches: no influence on results. Zeroed memory is an empty cache.
+ *  Directions as in the map's tables. */
+typedef struct gm_reduced_cache {
+    gm_cell1 coupling, parasitic[2], line[GM_MAX_PATHS][GM_CACHED_LINES];
+    gm_cell2 load_loss[GM_MAX_PATHS][2];
+    gm_cell2 drag[GM_MAX_PATHS][2][2], reaction[GM_MAX_PATHS][2][2];
+} gm_reduced_cache;
+
 /** Speed of every independent shaft and the accounts; plain data without pointers. */
 typedef struct gm_reduced_state {
     gm_real phi_o, w_o;
     gm_path_state path[GM_MAX_PATHS];
-    gm_real work;        /* done by the flanges on the gearset since the start [J] */
-    gm_real loss_energy; /* dissipated since the start, engagement impulses included [J] */
-    struct {             /* interpolation caches: no influence on results */
-        gm_cell1 parasitic, coupling;
-        gm_cell2 load_loss[GM_MAX_PATHS], drag[GM_MAX_PATHS], reaction[GM_MAX_PATHS];
-    } cache;
+    gm_real work; /* done by the flanges on the gearset since the start [J] */
+    gm_real
+        loss_energy; /* dissipated since the start, engagement impulses included [J] */
+    gm_reduced_cache cache;
 } gm_reduced_state;
 
 /** What can be observed of a state under given inputs. */
 typedef struct gm_reduced_outputs {
-    gm_real a_o;                            /* rad/s2 */
-    gm_real a[GM_MAX_PATHS];                /* rad/s2 */
-    gm_real transmitted[GM_MAX_PATHS];      /* tau_m of engaged paths, else 0 [N.m] */
-    gm_real path_loss_torque[GM_MAX_PATHS]; /* sigma_p D_p engaged; N_n + C neutral [N.m] */
-    gm_real output_loss_torque;             /* sigma (P + X) + R at the output [N.m] */
-    gm_real loss_power;                     /* all of it, cones included [W] */
-    gm_real kinetic_energy;                 /* [J] */
+    gm_real a_o;                       /* rad/s2 */
+    gm_real a[GM_MAX_PATHS];           /* rad/s2 */
+    gm_real transmitted[GM_MAX_PATHS]; /* tau_m of engaged paths, else 0 [N.m] */
+    gm_real
+        path_loss_torque[GM_MAX_PATHS]; /* sigma_p D_p engaged; N_n + C neutral [N.m] */
+    gm_real output_loss_torque;         /* sigma (P + X) + R at the output [N.m] */
+    gm_real loss_power;                 /* all of it, cones included [W] */
+    gm_real kinetic_energy;             /* [J] */
 } gm_reduced_outputs;
 
 /** Flags of a call, or-ed. */
 enum {
-    GM_FLAG_OUT_OF_MAP = 1,     /* a table was left; its edge value was used */
-    GM_FLAG_NOT_FINITE = 2,     /* a NaN or infinite input, or a result that overflowed: the
-                                   state is unchanged */
+    GM_FLAG_OUT_OF_MAP = 1, /* a table was left; its edge value was used */
+    GM_FLAG_NOT_FINITE = 2, /* a NaN or infinite input, or a result that overflowed: the
+                               state is unchanged */
     GM_FLAG_GEAR_REFUSED_0 = 4, /* unknown gear number commanded on path 0; gear kept */
     GM_FLAG_GEAR_REFUSED_1 = 8
 };

@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The fast path of a cached-cell query: while the point stays inside the cell, neither a
+ * search nor a read of the table. Everything else (another cell, another table, the last
+ * node, outside) is the slow path in gm_interp.c. Both use the same formula, so the cache
+ * cannot change a bit of a result.
+ */
+#ifndef CELL_H
+#define CELL_H
+
+#include "gm_interp.h"
+
+/* A one-node axis has a cell without bounds. Beyond this width only the slow path, which
+ * knows the number of nodes, answers. */
+#define GM_UNBOUNDED 1e30
+
+gm_value1 gm_cell1_refill(const gm_table1 *t, int table, gm_cell1 *cell, gm_real x);
+gm_value2 gm_cell2_refill(const gm_table2 *t, int table, gm_cell2 *cell, gm_real x,
+                          gm_real y);
+
+static inline gm_value1 gm_cell1_inside(const gm_cell1 *c, gm_real x)
+{
+    gm_value1 v;
+    v.value = c->c0 + c->cx * (x - c->x_low);
+    v.dx = c->cx;
+    v.outside = 0;
+    return v;
+}
+
+static inline gm_value2 gm_cell2_inside(const gm_cell2 *c, gm_real x, gm_real y)
+{
+    const gm_real u = x - c->x_low, w = y - c->y_low;
+    gm_value2 v;
+    v.dx = c->cx + c->cxy * w;
+    v.dy = c->cy + c->cxy * u;
+    v.value = c->c0 + c->cy * w + v.dx * u;
+    v.outside = 0;
+    return v;
+}
+
+static inline gm_value1 gm_cell1_at(const gm_table1 *t, int table, gm_cell1 *c, gm_real x)
+{
+    if (c->table == table && x >= c->x_low && x < c->x_high) {
+        return gm_cell1_inside(c, x);
+    }
+    return gm_cell1_refill(t, table, c, x);
+}
+
+static inline gm_value2 gm_cell2_at(const gm_table2 *t, int table, gm_cell2 *c, gm_real x,
+                                    gm_real y)
+{
+    if (c->table == table && x >= c->x_low && x < c->x_high && y >= c->y_low &&
+        y < c->y_high) {
+        return gm_cell2_inside(c, x, y);
+    }
+    return gm_cell2_refill(t, table, c, x, y);
+}
+
+#endif

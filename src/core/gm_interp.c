@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * Multilinear interpolation. In a cell with lower corner (x_i, y_j) and u = x - x_i,
+ * v = y - y_j the surface is c0 + cx u + cy v + cxy u v; its gradient is exact and agrees
+ * with the difference quotient of the value inside the cell.
+ *
+ * The last node and the clamped edge are read from the far corner and not extrapolated
+ * from the near one, so that every node returns its value to the last bit.
+ */
+#include "gm_interp.h"
+#include "cell.h"
+
+#include <stddef.h>
+
+/* Where a query lies on one axis. */
+typedef struct place {
+    int i;       /* cell */
+    int far;     /* 1: at the last node or clamped to it */
+    int outside; /* 1: clamped */
+    gm_real q;   /* the query, clamped */
+    gm_real low, high;
+    gm_real slope; /* 1 / width; 0 on a one-node axis */
+} place;
+
+int gm_axis_find(const gm_axis *axis, gm_real q)
+{
+    int low = 0, high = axis->n - 1;
+    while (high - low > 1) {
+        const int middle = low + (high - low) / 2;
+        if (q >= axis->x[middle]) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+static place place_on(const gm_axis *axis, gm_real q)
+{
+    place p = {0, 0, 0, q, -GM_UNBOUNDED, GM_UNBOUNDED, 0};
+    if (axis->n == 1) {
+        p.q = p.low; /* any point: the slope is zero */
+        return p;
+    }
+    p.i = gm_axis_find(axis, q);
+    p.low = axis->x[p.i];
+    p.high = axis->x[p.i + 1];
+    p.slope = 1 / (p.high - p.low);
+    if (q < p.low) {
+        p.q = p.low;
+        p.outside = 1;
+    } else if (q >= p.high) {
+        p.outside = q > p.high;
+        p.q = p.high;
+        p.far = 1;
+    }
+    return p;
+}
+
+gm_value1 gm_cell1_refill(const gm_table1 *t, int table, gm_cell1 *c, gm_real x)
+{
+    const place p = place_on(&t->x, x);
+    const gm_real *f = t->value + p.i;
+    const int step = t->x.n > 1;
+    c->table = table;
+    c->x_low = p.low;
+    c->x_high = p.high;
+    c->c0 = f[0];
+    c->cx = (f[step] - f[0]) * p.slope;
+    gm_value1 v = gm_cell1_inside(c, p.q);
+    if (p.far) {
+        v.value = f[step];
+    }
+    if (p.outside) {
+        v.dx = 0;
+    }
+    v.outside = p.outside;
+    return v;
+}
+
+/* Value on the edge of a cell where x, y or both are at the last node; f[near/far x][y].
+ */
+static gm_real far_edge(const gm_cell2 *c, const place *x, const place *y,
+                        const gm_real f[2][2])
+{
+    if (x->far && y->far) {
+        return f[1][1];
+    }
+    if (x->far) {
+        return f[1][0] + (f[1][1] - f[1][0]) * y->slope * (y->q - c->y_low);
+    }
+    return f[0][1] + (f[1][1] - f[0][1]) * x->slope * (x->q - c->x_low);
+}
+
+gm_value2 gm_cell2_refill(const gm_table2 *t, int table, gm_cell2 *c, gm_real x,
+                          gm_real y)
+{
+    const place px = place_on(&t->x, x), py = place_on(&t->y, y);
+    const ptrdiff_t row = t->y.n, next = t->x.n > 1 ? row : 0, step = row > 1;
+    const gm_real *corner = t->value + px.i * row + py.i;
+    const gm_real f[2][2] = {{corner[0], corner[step]},
+                             {corner[next], corner[next + step]}};
+    c->table = table;
+    c->x_low = px.low;
+    c->x_high = px.high;
+    c->y_low = py.low;
+    c->y_high = py.high;
+    c->c0 = f[0][0];
+    c->cx = (f[1][0] - f[0][0]) * px.slope;
+    c->cy = (f[0][1] - f[0][0]) * py.slope;
+    c->cxy = ((f[1][1] - f[1][0]) * py.slope - c->cy) * px.slope;
+    gm_value2 v = gm_cell2_inside(c, px.q, py.q);
+    if (px.far || py.far) {
+        v.value = far_edge(c, &px, &py, f);
+    }
+    v.dx = px.outside ? 0 : v.dx;
+    v.dy = py.outside ? 0 : v.dy;
+    v.outside = px.outside || py.outside;
+    return v;
+}
+
+gm_value1 gm_table1_at(const gm_table1 *t, int table, gm_cell1 *cell, gm_real x)
+{
+    return gm_cell1_at(t, table, cell, x);
+}
+
+gm_value2 gm_table2_at(const gm_table2 *t, int table, gm_cell2 *cell, gm_real x,
+                       gm_real y)
+{
+    return gm_cell2_at(t, table, cell, x, y);
+}
+
+/* Between two values, exact at both ends; *slope receives the derivative. */
+static gm_real between(const place *p, gm_real near, gm_real far, gm_real *slope)
+{
+    *slope = (far - near) * p->slope;
+    return p->far ? far : near + *slope * (p->q - p->low);
+}
+
+/* One layer z: the bilinear surface of x and y, d[] its derivatives. */
+static gm_real layer(const place *x, const place *y, const gm_real *corner,
+                     ptrdiff_t next_x, ptrdiff_t next_y, gm_real d[2])
+{
+    gm_real y_near, y_far, unused;
+    const gm_real near = between(y, corner[0], corner[next_y], &y_near);
+    const gm_real far = between(y, corner[next_x], corner[next_x + next_y], &y_far);
+    const gm_real value = between(x, near, far, &d[0]);
+    d[1] = between(x, y_near, y_far, &unused);
+    return value;
+}
+
+gm_value3 gm_table3_at(const gm_table3 *t, gm_real x, gm_real y, gm_real z)
+{
+    const place px = place_on(&t->x, x), py = place_on(&t->y, y), pz = place_on(&t->z, z);
+    const ptrdiff_t n_y = t->y.n, n_z = t->z.n;
+    const gm_real *corner = t->value + (px.i * n_y + py.i) * n_z + pz.i;
+    const ptrdiff_t next_x = t->x.n > 1 ? n_y * n_z : 0, next_y = n_y > 1 ? n_z : 0;
+    gm_real near[2], far[2], unused;
+    const gm_real low = layer(&px, &py, corner, next_x, next_y, near);
+    const gm_real high = layer(&px, &py, corner + (n_z > 1), next_x, next_y, far);
+    gm_value3 v;
+    v.value = between(&pz, low, high, &v.dz);
+    v.dx = px.outside ? 0 : between(&pz, near[0], far[0], &unused);
+    v.dy = py.outside ? 0 : between(&pz, near[1], far[1], &unused);
+    v.dz = pz.outside ? 0 : v.dz;
+    v.outside = px.outside || py.outside || pz.outside;
+    return v;
+}

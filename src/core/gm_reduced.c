@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The reduced gearset: gear commands, start, one step, what can be observed. Equations in
+ * gm_reduced.h; tables in reduced_terms.c, the motion in reduced_solve.c, sub-steps and
+ * events in reduced_step.c.
+ */
+#include "gm_reduced.h"
+#include "reduced_parts.h"
+
+#include <stddef.h>
+
+enum { GM_SUBSTEPS = 12 }; /* events in one step; those beyond are treated at its end */
+
+/* ---- lookups ---- */
+
+void gm_reduced_default_params(const gm_reduced_map *map, gm_reduced_params *params)
+{
+    params->loss_scale = 1;
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        params->sync_torque[p] = map->path[p < map->n_paths ? p : 0].sync_torque;
+    }
+}
+
+int gm_reduced_find_gear(const gm_reduced_map *map, int p, int number)
+{
+    if (number == GM_NEUTRAL) {
+        return -1;
+    }
+    for (int i = 0; i < map->path[p].n_gears; i++) {
+        if (map->path[p].gears[i].number == number) {
+            return i;
+        }
+    }
+    return -2;
+}
+
+int gm_reduced_configuration(const gm_reduced_map *map, const gm_reduced_state *state)
+{
+    return gm_configuration_index(map, state->path);
+}
+
+static int inputs_are_finite(const gm_reduced_map *map, const gm_reduced_inputs *in)
+{
+    gm_real sum = in->output_tau - in->output_tau +
+                  (in->output_tau_rate - in->output_tau_rate) +
+                  (in->oil_temperature - in->oil_temperature);
+    for (int p = 0; p < map->n_paths; p++) {
+        sum += in->path_tau[p] - in->path_tau[p];
+        sum += in->path_tau_rate[p] - in->path_tau_rate[p];
+    }
+    return sum == 0; /* x - x is 0 for finite x, else NaN */
+}
+
+static int motion_is_finite(const gm_reduced_map *map, const gm_motion *s)
+{
+    gm_real sum = (s->phi_o - s->phi_o) + (s->w_o - s->w_o) + (s->work - s->work) +
+                  (s->loss_energy - s->loss_energy);
+    for (int p = 0; p < map->n_paths; p++) {
+        sum += (s->path[p].phi - s->path[p].phi) + (s->path[p].w - s->path[p].w);
+    }
+    return sum == 0;
+}
+
+static gm_motion load(const gm_reduced_state *state)
+{
+    gm_motion s;
+    s.phi_o = state->phi_o;
+    s.w_o = state->w_o;
+    s.path[0] = state->path[0];
+    s.path[1] = state->path[1];
+    s.work = state->work;
+    s.loss_energy = state->loss_energy;
+    return s;
+}
+
+static void store(const gm_motion *s, gm_reduced_state *state)
+{
+    state->phi_o = s->phi_o;
+    state->w_o = s->w_o;
+    state->path[0] = s->path[0];
+    state->path[1] = s->path[1];
+    state->work = s->work;
+    state->loss_energy = s->loss_energy;
+}
+
+/* ---- gears ---- */
+
+static int command_gear(const gm_reduced_map *map, int p, int number, gm_motion *s)
+{
+    gm_path_state *path = &s->path[p];
+    const int gear = gm_reduced_find_gear(map, p, number);
+    if (gear == -2) {
+        return p == 0 ? GM_FLAG_GEAR_REFUSED_0 : GM_FLAG_GEAR_REFUSED_1;
+    }
+    if (path->mode != GM_PATH_NEUTRAL && path->gear == gear) {
+        return 0;
+    }
+    path->gear = gear;
+    path->mode = gear < 0 ? GM_PATH_NEUTRAL : GM_PATH_SYNCHRONISING;
+    return 0;
+}
+
+/* Synchronisers that have nothing to do, or unlimited capacity, lock now. */
+static void lock_synchronised(const gm_reduced_map *map, const gm_reduced_params *params,
+                              gm_motion *s)
+{
+    for (int p = 0; p < map->n_paths; p++) {
+        if (s->path[p].mode == GM_PATH_SYNCHRONISING &&
+            (params->sync_torque[p] >= GM_SYNC_AT_ONCE ||
+             s->path[p].w == gm_motion_gear(map, s, p)->ratio * s->w_o)) {
+            gm_engage(map, p, s);
+        }
+    }
+}
+
+/* ---- public ---- */
+
+int gm_reduced_start(const gm_reduced_map *map, const gm_reduced_inputs *inputs,
+                     gm_real w_o, const gm_real *w, gm_reduced_state *state)
+{
+    static const gm_reduced_state zero = {0};
+    gm_motion s = {0, 0, {{0, 0, 0, -1}, {0, 0, 0, -1}}, 0, 0};
+    int flags = 0;
+    s.w_o = w_o;
+    for (int p = 0; p < map->n_paths; p++) {
+        gm_path_state *path = &s.path[p];
+        path->w = w[p];
+        flags |= command_gear(map, p, inputs->gear[p], &s);
+        if (path->gear >= 0) {
+            path->mode = GM_PATH_ENGAGED;
+            path->w = gm_motion_gear(map, &s, p)->ratio * w_o;
+        }
+    }
+    if (!inputs_are_finite(map, inputs) || !motion_is_finite(map, &s)) {
+        return GM_FLAG_NOT_FINITE;
+    }
+    *state = zero;
+    store(&s, state);
+    return flags;
+}
+
+int gm_reduced_step(const gm_reduced_map *map, const gm_reduced_params *params,
+                    const gm_reduced_inputs *inputs, gm_real h, gm_reduced_state *state)
+{
+    if (!inputs_are_finite(map, inputs) || !gm_is_finite(h)) {
+        return GM_FLAG_NOT_FINITE;
+    }
+    gm_motion s = load(state);
+    gm_real rest = h;
+    int flags = 0, outside = 0;
+    for (int p = 0; p < map->n_paths; p++) {
+        flags |= command_gear(map, p, inputs->gear[p], &s);
+    }
+    for (int i = 0; i < GM_SUBSTEPS && rest > 0; i++) {
+        const gm_span span = {h - rest, rest, i == GM_SUBSTEPS - 1};
+        lock_synchronised(map, params, &s);
+        rest -= gm_substep(map, params, inputs, &span, &state->cache, &s, &outside);
+    }
+    if (!motion_is_finite(map, &s)) {
+        return GM_FLAG_NOT_FINITE;
+    }
+    store(&s, state);
+    return flags | (outside ? GM_FLAG_OUT_OF_MAP : 0);
+}
+
+/* ---- outputs ---- */
+
+/* While friction holds the output, each loss torque carries the same share of its
+ * break-away value: what the account of torques needs, and continuous when it lets go. */
+static void share_holding(const gm_drive *d, gm_solution *solution)
+{
+    gm_terms t = {0};
+    gm_real limit = 0, applied = 0;
+    for (int sign = 1; sign >= -1; sign -= 2) {
+        const gm_real excess = gm_excess(d, solution, GM_OUT, sign, &t);
+        limit = t.out;
+        for (int p = 0; p < d->n_paths; p++) {
+            limit += d->engaged[p] ? d->ratio[p] * t.path[p].load : t.path[p].reaction;
+        }
+        applied = excess + limit;
+        if (applied * sign >= 0) {
+            break;
+        }
+    }
+    const gm_real share = limit != 0 ? applied / limit : 0;
+    solution->terms.out = share * t.out;
+    for (int p = 0; p < d->n_paths; p++) {
+        solution->terms.path[p].load = share * t.path[p].load;
+        solution->terms.path[p].reaction = share * t.path[p].reaction;
+    }
+}
+
+static void path_outputs(const gm_drive *d, const gm_solution *s, int p,
+                         gm_reduced_outputs *o)
+{
+    const gm_path_terms *t = &s->terms.path[p];
+    const gm_real c = p == 0 ? s->terms.coupling : -s->terms.coupling;
+    if (d->engaged[p]) {
+        o->a[p] = d->ratio[p] * o->a_o;
+        o->transmitted[p] = s->point.tau_m[p];
+        o->path_loss_torque[p] = t->load;
+        return;
+    }
+    o->a[p] = s->point.a[p];
+    o->path_loss_torque[p] = s->held[p] ? d->tau[p] - d->cone[p] : t->drag + c;
+    o->output_loss_torque += t->reaction;
+    o->kinetic_energy += d->inertia[p] * d->w[p] * d->w[p] / 2;
+}
+
+int gm_reduced_outputs_at(const gm_reduced_map *map, const gm_reduced_params *params,
+                          const gm_reduced_inputs *inputs, gm_reduced_state *state,
+                          gm_reduced_outputs *outputs)
+{
+    static const gm_reduced_outputs zero = {0};
+    gm_reduced_outputs o = zero;
+    gm_drive d;
+    gm_solution solution;
+    const gm_motion s = load(state);
+    if (!inputs_are_finite(map, inputs)) {
+        return GM_FLAG_NOT_FINITE;
+    }
+    gm_make_drive(map, params, &s, &state->cache, &d);
+    gm_set_span(inputs, 0, 0, &d);
+    gm_solve(&d, &solution);
+    o.loss_power = gm_loss_power(&d, &solution);
+    if (solution.held[GM_OUT]) {
+        share_holding(&d, &solution);
+    }
+    o.a_o = solution.point.a[GM_OUT];
+    o.output_loss_torque = solution.terms.out;
+    o.kinetic_energy = d.inertia[GM_OUT] * s.w_o * s.w_o / 2;
+    for (int p = 0; p < d.n_paths; p++) {
+        path_outputs(&d, &solution, p, &o);
+    }
+    if (!gm_is_finite(o.a_o) || !gm_is_finite(o.a[0]) || !gm_is_finite(o.a[1]) ||
+        !gm_is_finite(o.kinetic_energy) || !gm_is_finite(o.loss_power)) {
+        return GM_FLAG_NOT_FINITE;
+    }
+    *outputs = o;
+    return solution.terms.outside ? GM_FLAG_OUT_OF_MAP : 0;
+}

@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * What the parts of the reduced gearset share: the shafts over one sub-step, the loss
+ * torques with their gradients, and the solution. Private to the core.
+ *
+ * Shafts are numbered 0, 1 for the paths and GM_OUT for the output. An engaged path has
+ * no speed of its own; "free" is a path in neutral or synchronising.
+ */
+#ifndef REDUCED_PARTS_H
+#define REDUCED_PARTS_H
+
+#include "gm_reduced.h"
+
+enum { GM_OUT = GM_MAX_PATHS, GM_SHAFTS = GM_MAX_PATHS + 1 };
+
+/* From here on a cone capacity counts as infinite: engagement at once. */
+#define GM_SYNC_AT_ONCE 1e30
+
+/* The state without its caches: what a step computes and then commits or drops. */
+typedef struct gm_motion {
+    gm_real phi_o, w_o;
+    gm_path_state path[GM_MAX_PATHS];
+    gm_real work, loss_energy;
+} gm_motion;
+
+/* Constant over one sub-step. Path quantities are [p], output's are [GM_OUT]. */
+typedef struct gm_drive {
+    const gm_reduced_map *map;
+    const gm_configuration *configuration;
+    gm_reduced_cache *cache;
+    int index; /* of the configuration */
+    int n_paths;
+    int coupled; /* the coupling C acts outside P */
+    int engaged[GM_MAX_PATHS], free[GM_MAX_PATHS];
+    const gm_gear *gear[GM_MAX_PATHS]; /* engaged or being synchronised, else NULL */
+    gm_real ratio[GM_MAX_PATHS];       /* of that gear, else 0 */
+    gm_real cone[GM_MAX_PATHS];        /* T_c, signed [N.m] */
+    gm_real inertia[GM_SHAFTS];        /* J_p; J_s of the configuration at the output */
+    gm_real w[GM_SHAFTS];              /* at the start of the sub-step */
+    gm_real tau[GM_SHAFTS];            /* flange torques, mean of the sub-step */
+    gm_real scale;                     /* loss_scale */
+    gm_real h;                         /* s; 0: at this instant */
+} gm_drive;
+
+/* Where the tables are read: accelerations, mid-step speeds, transmitted torques. */
+typedef struct gm_point {
+    gm_real a[GM_SHAFTS]; /* dw/dt; of free paths and of the output */
+    gm_real m[GM_SHAFTS]; /* mean speeds of the sub-step; engaged paths r_p m_o */
+    gm_real tau_m[GM_MAX_PATHS];
+} gm_point;
+
+/* Loss torques of one path with their gradients. Signed: positive brakes forward. */
+typedef struct gm_path_terms {
+    gm_real load, load_o, load_tau;           /* sigma_p D; d/dw_o, d/dtau_m */
+    gm_real drag, drag_n, drag_o;             /* N; d/dw_n, d/dw_o */
+    gm_real reaction, reaction_n, reaction_o; /* R */
+} gm_path_terms;
+
+typedef struct gm_terms {
+    gm_real out, out_o, out_tau[GM_MAX_PATHS]; /* sigma (P + X); d/dw_o, d/dtau_m,p */
+    gm_real coupling, coupling_w;              /* C(w_0 - w_1) and its slope */
+    gm_path_terms path[GM_MAX_PATHS];
+    int outside;
+} gm_terms;
+
+typedef struct gm_solution {
+    gm_point point;
+    gm_terms terms;        /* the very torques of the momentum balance */
+    int sign[GM_SHAFTS];   /* direction of rotation assumed: +1, -1 */
+    int held[GM_SHAFTS];   /* 1: at rest, friction holds it */
+    int barred[GM_SHAFTS]; /* 1: was let go in this solution and did not move that way */
+} gm_solution;
+
+static inline gm_real gm_abs(gm_real x)
+{
+    return x < 0 ? -x : x;
+}
+
+static inline gm_real gm_not_below_zero(gm_real x)
+{
+    return x > 0 ? x : 0;
+}
+
+static inline int gm_is_finite(gm_real x)
+{
+    return x - x == 0;
+}
+
+static inline int gm_direction(int sign)
+{
+    return sign < 0 ? GM_BACKWARD : GM_FORWARD;
+}
+
+/** Gear engaged or being synchronised on path p; NULL in neutral. */
+const gm_gear *gm_motion_gear(const gm_reduced_map *map, const gm_motion *s, int p);
+
+/** J_s: inertia that turns with the output [kg.m2]. */
+gm_real gm_motion_inertia(const gm_reduced_map *map, const gm_motion *s);
+
+/** Index into map->configurations; paths[n_paths]. */
+int gm_configuration_index(const gm_reduced_map *map, const gm_path_state *paths);
+
+/** Fill *d for the present motion; torques and length follow with gm_set_span. */
+void gm_make_drive(const gm_reduced_map *map, const gm_reduced_params *params,
+                   const gm_motion *s, gm_reduced_cache *cache, gm_drive *d);
+
+/** Mean flange torques over h seconds that begin t seconds into the step. */
+void gm_set_span(const gm_reduced_inputs *in, gm_real t, gm_real h, gm_drive *d);
+
+/** Power of all loss torques of *s at its mean speeds, cones included [W]. */
+gm_real gm_loss_power(const gm_drive *d, const gm_solution *s);
+
+/** Path p and the output meet in one impulse that conserves momentum; the kinetic energy
+ *  that goes is lost. The path is engaged from here on. */
+void gm_engage(const gm_reduced_map *map, int p, gm_motion *s);
+
+/* Part of a step: rest seconds, from start seconds into it; last: events do not end it.
+ */
+typedef struct gm_span {
+    gm_real start, rest;
+    int last;
+} gm_span;
+
+/** One sub-step of at most span->rest; it ends at the first event unless span->last.
+ *  Returns its length; *outside is set when a table was left. */
+gm_real gm_substep(const gm_reduced_map *map, const gm_reduced_params *params,
+                   const gm_reduced_inputs *in, const gm_span *span,
+                   gm_reduced_cache *cache, gm_motion *s, int *outside);
+
+/** Table values at *point for the directions in *s: fills s->terms; point->tau_m is
+ *  completed first. The output's own terms are left zero while it is held. */
+void gm_terms_at(const gm_drive *d, gm_solution *s, gm_point *point);
+
+/** Terms on the output and the load losses for direction sign of the output (terms->out
+ *  and terms->path[].load of engaged paths) at point. */
+void gm_output_terms(const gm_drive *d, int sign, const gm_point *point, gm_terms *terms);
+
+/** N and R of free path p for the directions of the path and of the output. */
+void gm_drag_terms(const gm_drive *d, int p, int sign_n, int sign_o,
+                   const gm_point *point, gm_terms *terms);
+
+/** Whether the linearised terms of s hold from point to next as well: every table read
+ *  stays in its cell, and what the gradients leave out of its bilinear surface is small.
+ */
+int gm_terms_hold(const gm_drive *d, const gm_solution *s, const gm_point *point,
+                  const gm_point *next);
+
+/** Motion over d->h from the speeds d->w: accelerations, held shafts, loss torques. */
+void gm_solve(const gm_drive *d, gm_solution *s);
+
+/** Torque on shaft k at rest minus the friction it must overcome to break away in
+ *  direction sign: it does when > 0 for sign = 1, < 0 for sign = -1. *terms receives the
+ *  loss torques at that break-away. */
+gm_real gm_excess(const gm_drive *d, const gm_solution *s, int k, int sign,
+                  gm_terms *terms);
+
+#endif

@@ -1,0 +1,353 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * Motion of the reduced gearset over one sub-step, implicit midpoint.
+ *
+ * Unknown are the acceleration a of the output and b_n of each free path. The balance
+ *
+ *   F_o = J_s a - tau_o - sum_E r (g_p - sigma_p D_p) - sum_sync r T_c + sum_N R + sigma
+ * (P + X) F_n = J_n b - g_n + N_n + T_c,n            g_0 = tau_0 - C,  g_1 = tau_1 + C
+ *
+ * holds at the mean speeds m = w + h/2 dw/dt. Inside the cells of all tables the terms
+ * are linear but for small bilinear remainders, so one Newton pass solves it; when a
+ * table leaves its cell the next pass starts there. Every pass yields torques that fulfil
+ * the linearised balance to rounding, and these torques are what the account of losses
+ * uses: it closes whether or not the passes have converged. The passes are bounded by
+ * GM_PASSES; brackets on every unknown turn cycles between cells into bisection.
+ *
+ * Friction at rest: a shaft at standstill is held unless the torque on it exceeds one of
+ * the two one-sided limits; then it is let go in that direction. Each shaft can be let go
+ * once and be held again once, so the search is bounded by GM_ROUNDS.
+ *
+ * Gradients that would take the system matrix near singularity (a map that is not
+ * monotone, with a long step) are dropped: the terms are then explicit, the account stays
+ * exact.
+ */
+#include "reduced_parts.h"
+
+enum { GM_PASSES = 40, GM_FREE_PASSES = 3, GM_ROUNDS = 2 * GM_SHAFTS + 1 };
+
+#define GM_FAR 1e300 /* bracket that excludes nothing */
+
+/* A pivot below this part of the inertia means that falling gradients or dD/dtau near 1
+ * leave no unique solution. */
+#define PIVOT_LIMIT 0.1
+
+typedef struct linear_system {
+    gm_real matrix[GM_SHAFTS][GM_SHAFTS], right[GM_SHAFTS];
+    int active[GM_SHAFTS];
+} linear_system;
+
+/* ---- the linear system ---- */
+
+static gm_real output_balance(const gm_drive *d, const gm_terms *t, const gm_point *at)
+{
+    gm_real sum = d->tau[GM_OUT] - t->out - d->inertia[GM_OUT] * at->a[GM_OUT];
+    for (int p = 0; p < d->n_paths; p++) {
+        const gm_real c = p == 0 ? -t->coupling : t->coupling;
+        if (d->engaged[p]) {
+            sum += d->ratio[p] * (d->tau[p] + c - t->path[p].load);
+        } else {
+            sum += d->ratio[p] * d->cone[p] - t->path[p].reaction;
+        }
+    }
+    return sum;
+}
+
+static gm_real path_balance(const gm_drive *d, const gm_terms *t, const gm_point *at,
+                            int p)
+{
+    const gm_real c = p == 0 ? -t->coupling : t->coupling;
+    return d->tau[p] + c - t->path[p].drag - d->cone[p] - d->inertia[p] * at->a[p];
+}
+
+/* Part of a torque at flange p that reaches the output: r (1 - dD/dtau) - dX/dtau. */
+static gm_real passed_on(const gm_drive *d, const gm_terms *t, int p)
+{
+    return d->ratio[p] * (1 - t->path[p].load_tau) - t->out_tau[p];
+}
+
+static void fill_output_row(const gm_drive *d, const gm_terms *t, const gm_point *at,
+                            linear_system *s)
+{
+    const gm_real half = d->h / 2;
+    gm_real slope = t->out_o, inertia = d->map->inertia_output;
+    for (int p = 0; p < d->n_paths; p++) {
+        const gm_path_terms *path = &t->path[p];
+        const gm_real r = d->ratio[p];
+        if (d->engaged[p]) {
+            const gm_real q = passed_on(d, t, p);
+            inertia += d->inertia[p] * r * q;
+            slope += r * (path->load_o + q * t->coupling_w);
+            s->matrix[GM_OUT][1 - p] -= half * q * t->coupling_w;
+        } else {
+            slope += path->reaction_o;
+            s->matrix[GM_OUT][p] += half * path->reaction_n;
+        }
+    }
+    s->matrix[GM_OUT][GM_OUT] = inertia + half * slope;
+    s->right[GM_OUT] = output_balance(d, t, at);
+}
+
+static void fill_path_row(const gm_drive *d, const gm_terms *t, const gm_point *at, int p,
+                          linear_system *s)
+{
+    const gm_real half = d->h / 2;
+    const gm_path_terms *path = &t->path[p];
+    const int other = 1 - p;
+    gm_real cross = path->drag_o;
+    if (d->engaged[other]) {
+        cross -= t->coupling_w * d->ratio[other];
+    }
+    s->matrix[p][p] = d->inertia[p] + half * (path->drag_n + t->coupling_w);
+    s->matrix[p][other] = -half * t->coupling_w;
+    s->matrix[p][GM_OUT] = half * cross;
+    s->right[p] = path_balance(d, t, at, p);
+}
+
+/* Forward elimination and back substitution in fixed order; 0 when a pivot is too small.
+ */
+static int eliminate(const gm_drive *d, linear_system *s, gm_real change[GM_SHAFTS])
+{
+    for (int k = 0; k < GM_SHAFTS; k++) {
+        change[k] = 0;
+        if (!s->active[k]) {
+            continue;
+        }
+        if (!(s->matrix[k][k] > PIVOT_LIMIT * d->inertia[k])) {
+            return 0;
+        }
+        const gm_real inverse = 1 / s->matrix[k][k];
+        s->right[k] *= inverse;
+        for (int j = k + 1; j < GM_SHAFTS; j++) {
+            s->matrix[k][j] *= inverse;
+        }
+        for (int i = k + 1; i < GM_SHAFTS; i++) {
+            const gm_real f = s->matrix[i][k];
+            for (int j = k + 1; j < GM_SHAFTS; j++) {
+                s->matrix[i][j] -= f * s->matrix[k][j];
+            }
+            s->right[i] -= f * s->right[k];
+        }
+    }
+    for (int k = GM_SHAFTS - 1; k >= 0; k--) {
+        if (s->active[k]) {
+            change[k] = s->right[k];
+            for (int j = k + 1; j < GM_SHAFTS; j++) {
+                change[k] -= s->matrix[k][j] * change[j];
+            }
+        }
+    }
+    return 1;
+}
+
+static void drop_gradients(gm_terms *t)
+{
+    t->out_o = t->coupling_w = 0;
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        gm_path_terms *path = &t->path[p];
+        t->out_tau[p] = path->load_o = path->load_tau = 0;
+        path->drag_n = path->drag_o = path->reaction_n = path->reaction_o = 0;
+    }
+}
+
+static void newton_change(const gm_drive *d, gm_solution *s, const gm_point *at,
+                          gm_real change[GM_SHAFTS])
+{
+    for (int attempt = 0; attempt < 2; attempt++) {
+        linear_system system = {{{0}}, {0}, {0}};
+        for (int p = 0; p < d->n_paths; p++) {
+            system.active[p] = d->free[p] && !s->held[p];
+            if (system.active[p]) {
+                fill_path_row(d, &s->terms, at, p, &system);
+            }
+        }
+        system.active[GM_OUT] = !s->held[GM_OUT];
+        if (system.active[GM_OUT]) {
+            fill_output_row(d, &s->terms, at, &system);
+        }
+        if (eliminate(d, &system, change)) {
+            return;
+        }
+        drop_gradients(&s->terms); /* leaves a diagonal of inertias */
+    }
+}
+
+/* ---- the passes ---- */
+
+static void set_speeds(const gm_drive *d, gm_point *at)
+{
+    const gm_real half = d->h / 2;
+    at->m[GM_OUT] = d->w[GM_OUT] + half * at->a[GM_OUT];
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        at->m[p] =
+            d->engaged[p] ? d->ratio[p] * at->m[GM_OUT] : d->w[p] + half * at->a[p];
+    }
+}
+
+static void linearise(const gm_drive *d, gm_terms *t, const gm_point *from, gm_point *to)
+{
+    const gm_real d_o = to->m[GM_OUT] - from->m[GM_OUT];
+    const gm_real d_c = t->coupling_w * (to->m[0] - from->m[0] - (to->m[1] - from->m[1]));
+    t->coupling += d_c;
+    t->out += t->out_o * d_o;
+    for (int p = 0; p < d->n_paths; p++) {
+        gm_path_terms *path = &t->path[p];
+        const gm_real d_n = to->m[p] - from->m[p];
+        const gm_real d_tau =
+            (p == 0 ? -d_c : d_c) -
+            d->inertia[p] * d->ratio[p] * (to->a[GM_OUT] - from->a[GM_OUT]);
+        to->tau_m[p] = from->tau_m[p] + d_tau;
+        t->out += t->out_tau[p] * d_tau;
+        path->load += path->load_o * d_o + path->load_tau * d_tau;
+        path->drag += path->drag_n * d_n + path->drag_o * d_o;
+        path->reaction += path->reaction_n * d_n + path->reaction_o * d_o;
+    }
+}
+
+/* Where the next pass reads the tables: at the solution of the last one, or half way to
+ * the last place on the other side once the passes go to and fro. */
+static void next_place(int pass, const gm_point *at, gm_point *to, gm_real low[GM_SHAFTS],
+                       gm_real high[GM_SHAFTS])
+{
+    for (int k = 0; k < GM_SHAFTS; k++) {
+        const gm_real from = at->a[k];
+        if (to->a[k] > from) {
+            low[k] = from > low[k] ? from : low[k];
+        } else if (to->a[k] < from) {
+            high[k] = from < high[k] ? from : high[k];
+        }
+        if (pass >= GM_FREE_PASSES && low[k] < high[k] &&
+            (to->a[k] <= low[k] || to->a[k] >= high[k])) {
+            const gm_real middle = low[k] / 2 + high[k] / 2;
+            to->a[k] = low[k] > -GM_FAR && high[k] < GM_FAR ? middle : to->a[k];
+        }
+    }
+}
+
+/* First place: the output under its flange torques without losses, which are a few per
+ * cent; free paths at their present speed. */
+static void first_place(const gm_drive *d, const gm_solution *s, gm_point *at)
+{
+    gm_real sum = d->tau[GM_OUT];
+    for (int p = 0; p < d->n_paths; p++) {
+        sum += d->ratio[p] * (d->engaged[p] ? d->tau[p] : d->cone[p]);
+        at->a[p] = 0;
+    }
+    at->a[1] = 0;
+    at->a[GM_OUT] = s->held[GM_OUT] ? 0 : sum / d->inertia[GM_OUT];
+    set_speeds(d, at);
+}
+
+static void run_passes(const gm_drive *d, gm_solution *s)
+{
+    gm_real low[GM_SHAFTS] = {-GM_FAR, -GM_FAR, -GM_FAR};
+    gm_real high[GM_SHAFTS] = {GM_FAR, GM_FAR, GM_FAR};
+    gm_point at = {{0}, {0}, {0}};
+    first_place(d, s, &at);
+    for (int pass = 0;; pass++) {
+        gm_real change[GM_SHAFTS];
+        gm_point *to = &s->point;
+        gm_terms_at(d, s, &at);
+        newton_change(d, s, &at, change);
+        for (int k = 0; k < GM_SHAFTS; k++) {
+            to->a[k] = at.a[k] + change[k];
+        }
+        set_speeds(d, to);
+        linearise(d, &s->terms, &at, to);
+        if (pass == GM_PASSES - 1 || gm_terms_hold(d, s, &at, to)) {
+            return;
+        }
+        gm_point next = *to;
+        next_place(pass, &at, &next, low, high);
+        set_speeds(d, &next);
+        at = next;
+    }
+}
+
+/* ---- rest ---- */
+
+static gm_real path_excess(const gm_drive *d, const gm_solution *s, int p, int sign,
+                           gm_terms *t)
+{
+    gm_point at = s->point;
+    at.a[p] = at.m[p] = 0;
+    gm_drag_terms(d, p, sign, s->sign[GM_OUT], &at, t);
+    return path_balance(d, t, &at, p);
+}
+
+static gm_real output_excess(const gm_drive *d, const gm_solution *s, int sign,
+                             gm_terms *t)
+{
+    gm_point at = s->point;
+    at.a[GM_OUT] = at.m[GM_OUT] = 0;
+    for (int p = 0; p < d->n_paths; p++) {
+        if (d->engaged[p]) {
+            at.m[p] = 0;
+            at.tau_m[p] = d->tau[p] + (p == 0 ? -t->coupling : t->coupling);
+        } else {
+            gm_drag_terms(d, p, s->sign[p], sign, &at, t);
+        }
+    }
+    gm_output_terms(d, sign, &at, t);
+    return output_balance(d, t, &at);
+}
+
+gm_real gm_excess(const gm_drive *d, const gm_solution *s, int k, int sign,
+                  gm_terms *terms)
+{
+    *terms = s->terms;
+    return k == GM_OUT ? output_excess(d, s, sign, terms)
+                       : path_excess(d, s, k, sign, terms);
+}
+
+/* Direction in which shaft k breaks away; 0: friction holds it. */
+static int breaks_away(const gm_drive *d, const gm_solution *s, int k)
+{
+    gm_terms t;
+    const gm_real forward = gm_excess(d, s, k, 1, &t);
+    const gm_real backward = gm_excess(d, s, k, -1, &t);
+    if (forward > 0 && forward >= -backward) {
+        return 1;
+    }
+    return backward < 0 ? -1 : 0;
+}
+
+static int revise(const gm_drive *d, gm_solution *s, int k)
+{
+    if (d->w[k] != 0 || (k != GM_OUT && !d->free[k])) {
+        return 0;
+    }
+    if (s->held[k]) {
+        const int sign = s->barred[k] ? 0 : breaks_away(d, s, k);
+        s->held[k] = sign == 0;
+        s->sign[k] = sign == 0 ? 1 : sign;
+        return sign != 0;
+    }
+    if (s->point.a[k] * s->sign[k] > 0) {
+        return 0;
+    }
+    s->held[k] = s->barred[k] = s->sign[k] = 1;
+    return 1;
+}
+
+void gm_solve(const gm_drive *d, gm_solution *s)
+{
+    int standing = 0;
+    for (int k = 0; k < GM_SHAFTS; k++) {
+        s->sign[k] = d->w[k] < 0 ? -1 : 1;
+        s->held[k] = d->w[k] == 0 && (k == GM_OUT || d->free[k]);
+        s->barred[k] = 0;
+        standing += s->held[k];
+    }
+    run_passes(d, s);
+    if (standing == 0) {
+        return;
+    }
+    for (int round = 0; round < GM_ROUNDS; round++) {
+        const int changed = revise(d, s, GM_OUT) + revise(d, s, 0) + revise(d, s, 1);
+        if (changed == 0) {
+            return;
+        }
+        run_passes(d, s);
+    }
+}

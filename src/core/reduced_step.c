@@ -1,0 +1,221 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * Sub-steps of the reduced gearset and the events between them.
+ *
+ * A step is one implicit-midpoint sub-step as long as no shaft comes to rest and no
+ * synchroniser closes. Otherwise the first such event is located (secant with brackets),
+ * the sub-step ends there, the speed or speed difference becomes exactly zero, and the
+ * rest of the step goes on from there: friction never acts along the motion, so a passive
+ * map gives a loss energy that never falls, and events cost no order of accuracy. What
+ * the location leaves of the speed (1e-10 of it) is removed as an impulse of the friction
+ * that is acting, with its energy in the account. Bounds: GM_SUBSTEPS events in a step
+ * (those beyond are treated at the end of the step), GM_LOCATE solutions for each.
+ *
+ * Account on every sub-step: work = sum tau_mean h m, loss = sum T h m over the very
+ * torques T of the momentum balance, m = (w + w+)/2. Hence work = change of kinetic
+ * energy + loss to rounding.
+ */
+#include "reduced_parts.h"
+
+#include <stddef.h>
+
+enum { GM_LOCATE = 16 }; /* solutions to locate one event */
+
+#define GM_EVENT_TOLERANCE 1e-10 /* of the speed at the start of the sub-step */
+
+/* Events: shafts 0, 1, GM_OUT come to rest, then synchronisers 0, 1 close. */
+enum { GM_CLOSES = GM_SHAFTS, GM_EVENTS = GM_SHAFTS + GM_MAX_PATHS };
+
+static void advance(const gm_drive *d, const gm_solution *solution, gm_motion *s)
+{
+    const gm_real h = d->h;
+    const gm_point *at = &solution->point;
+    gm_real power = d->tau[GM_OUT] * at->m[GM_OUT];
+    s->w_o = d->w[GM_OUT] + h * at->a[GM_OUT];
+    s->phi_o += h * at->m[GM_OUT];
+    for (int p = 0; p < d->n_paths; p++) {
+        power += d->tau[p] * at->m[p];
+        s->path[p].w = d->engaged[p] ? d->ratio[p] * s->w_o : d->w[p] + h * at->a[p];
+        s->path[p].phi += h * at->m[p];
+    }
+    s->work += h * power;
+    s->loss_energy += h * gm_loss_power(d, solution);
+}
+
+/* ---- events ---- */
+
+/* Speeds that may become zero: shafts, then slips; 0 where there is no event to come. */
+static void event_speeds(const gm_drive *d, const gm_real w[GM_SHAFTS],
+                         gm_real e[GM_EVENTS])
+{
+    e[GM_OUT] = w[GM_OUT];
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        e[p] = d->free[p] ? w[p] : 0;
+        e[GM_CLOSES + p] = d->free[p] && d->gear[p] ? w[p] - d->ratio[p] * w[GM_OUT] : 0;
+    }
+}
+
+static void end_speeds(const gm_drive *d, const gm_solution *s, gm_real w[GM_SHAFTS])
+{
+    for (int k = 0; k < GM_SHAFTS; k++) {
+        w[k] = d->w[k] + d->h * s->point.a[k];
+    }
+}
+
+/* First event that is passed between two sets of speeds, by the straight line between
+ * them; -1: none. */
+static int first_event(const gm_real from[GM_EVENTS], const gm_real to[GM_EVENTS])
+{
+    int first = -1;
+    gm_real earliest = 2;
+    for (int i = 0; i < GM_EVENTS; i++) {
+        if ((from[i] > 0 && to[i] < 0) || (from[i] < 0 && to[i] > 0)) {
+            const gm_real when = from[i] / (from[i] - to[i]);
+            if (when < earliest) {
+                earliest = when;
+                first = i;
+            }
+        }
+    }
+    return first;
+}
+
+/* Secant search for the end of the sub-step at its first event. */
+typedef struct search {
+    int event;
+    gm_real low, high;        /* lengths: no event is passed by, the event is passed by */
+    gm_real e_low[GM_EVENTS]; /* event speeds at low */
+    gm_real f_low, f_high;    /* weighted speeds of the event (Illinois) */
+    int side;                 /* bound that moved last: -1, +1; 0: none */
+} search;
+
+/* The event was passed at length h: it is the new upper bound. */
+static void lower_high(int event, gm_real h, const gm_real end[GM_EVENTS], search *s)
+{
+    const int again = s->side == 1 && event == s->event;
+    s->f_low = again ? s->f_low / 2 : s->e_low[event];
+    s->event = event;
+    s->high = h;
+    s->f_high = end[event];
+    s->side = 1;
+}
+
+static void raise_low(gm_real h, const gm_real end[GM_EVENTS], search *s)
+{
+    for (int i = 0; i < GM_EVENTS; i++) {
+        s->e_low[i] = end[i];
+    }
+    s->low = h;
+    s->f_low = end[s->event];
+    s->f_high = s->side == -1 ? s->f_high / 2 : s->f_high;
+    s->side = -1;
+}
+
+/* Shorten the sub-step, d->h long and solved in *solution, to end at its first event.
+ * start, end: event speeds at its start and end (updated). Returns the event. */
+static int locate(const gm_reduced_inputs *in, gm_real t, const gm_real start[GM_EVENTS],
+                  gm_real end[GM_EVENTS], gm_drive *d, gm_solution *solution)
+{
+    search s = {0, 0, 0, {0}, 0, 0, 0};
+    for (int i = 0; i < GM_EVENTS; i++) {
+        s.e_low[i] = start[i];
+    }
+    lower_high(first_event(start, end), d->h, end, &s);
+    for (int trial = 0; trial < GM_LOCATE; trial++) {
+        gm_real w[GM_SHAFTS];
+        gm_set_span(in, t, s.low + (s.high - s.low) * (s.f_low / (s.f_low - s.f_high)),
+                    d);
+        gm_solve(d, solution);
+        end_speeds(d, solution, w);
+        event_speeds(d, w, end);
+        const int passed = first_event(s.e_low, end);
+        const gm_real close = GM_EVENT_TOLERANCE * gm_abs(start[s.event]);
+        if ((passed < 0 || passed == s.event) && gm_abs(end[s.event]) <= close) {
+            break;
+        }
+        if (passed >= 0) {
+            lower_high(passed, d->h, end, &s);
+        } else {
+            raise_low(d->h, end, &s);
+        }
+    }
+    return s.event;
+}
+
+/* Path p and the output meet in one impulse that conserves momentum; what kinetic energy
+ * goes is lost. The path is engaged from here on. */
+void gm_engage(const gm_reduced_map *map, int p, gm_motion *s)
+{
+    gm_path_state *path = &s->path[p];
+    const gm_real r = map->path[p].gears[path->gear].ratio;
+    const gm_real j_p = map->path[p].inertia, j_o = gm_motion_inertia(map, s);
+    const gm_real slip = path->w - r * s->w_o;
+    if (slip != 0) {
+        const gm_real j_sum = j_o + r * r * j_p;
+        s->loss_energy += j_p * j_o / j_sum * slip * slip / 2;
+        s->w_o += r * j_p * slip / j_sum;
+    }
+    path->mode = GM_PATH_ENGAGED;
+    for (int i = 0; i < map->n_paths; i++) {
+        if (s->path[i].mode == GM_PATH_ENGAGED) {
+            s->path[i].w = gm_motion_gear(map, s, i)->ratio * s->w_o;
+        }
+    }
+}
+
+static void bring_to_rest(const gm_reduced_map *map, int k, gm_motion *s)
+{
+    if (k == GM_OUT) {
+        s->loss_energy += gm_motion_inertia(map, s) * s->w_o * s->w_o / 2;
+        s->w_o = 0;
+        for (int p = 0; p < map->n_paths; p++) {
+            s->path[p].w = s->path[p].mode == GM_PATH_ENGAGED ? 0 : s->path[p].w;
+        }
+        return;
+    }
+    s->loss_energy += map->path[k].inertia * s->path[k].w * s->path[k].w / 2;
+    s->path[k].w = 0;
+}
+
+/* Treat an event, and what else was passed together with it. */
+static void treat_events(const gm_reduced_map *map, int event,
+                         const gm_real start[GM_EVENTS], const gm_real end[GM_EVENTS],
+                         gm_motion *s)
+{
+    for (int i = 0; i < GM_EVENTS; i++) {
+        const int passed = (start[i] > 0 && end[i] < 0) || (start[i] < 0 && end[i] > 0);
+        if (i != event && !passed) {
+            continue;
+        }
+        if (i >= GM_CLOSES) {
+            gm_engage(map, i - GM_CLOSES, s);
+        } else if (i == GM_OUT || s->path[i].mode != GM_PATH_ENGAGED) {
+            bring_to_rest(map, i, s);
+        }
+    }
+}
+
+gm_real gm_substep(const gm_reduced_map *map, const gm_reduced_params *params,
+                   const gm_reduced_inputs *in, const gm_span *span,
+                   gm_reduced_cache *cache, gm_motion *s, int *outside)
+{
+    gm_drive d;
+    gm_solution solution;
+    gm_real start[GM_EVENTS], end[GM_EVENTS], w[GM_SHAFTS];
+    gm_make_drive(map, params, s, cache, &d);
+    gm_set_span(in, span->start, span->rest, &d);
+    gm_solve(&d, &solution);
+    event_speeds(&d, d.w, start);
+    end_speeds(&d, &solution, w);
+    event_speeds(&d, w, end);
+    int event = first_event(start, end);
+    if (event >= 0 && !span->last) {
+        event = locate(in, span->start, start, end, &d, &solution);
+    }
+    advance(&d, &solution, s);
+    if (event >= 0) {
+        treat_events(map, event, start, end, s);
+    }
+    *outside |= solution.terms.outside;
+    return d.h;
+}
