@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * FMI 2.0: questions about the last step, and the optional functions that
+ * modelDescription.xml does not offer (FMI 2.0.3, sections 2.1.8 to 2.1.9 and 4.2.3).
+ * They have to exist and answer fmi2Error.
+ */
+#include "fmi2_instance.h"
+
+enum { PHASES_STATUS = GM_PHASE_STEP | GM_PHASE_STEP_FAILED | GM_PHASE_TERMINATED };
+
+/* Discard: this status is not available, everything else goes on. */
+static fmi2Status not_available(fmi2_instance *f, const char *function, int kind)
+{
+    fmi2_log(f, fmi2Discard, FMI2_LOG_DISCARD,
+             "%s: status kind %d is not available: steps are never done in the background",
+             function, kind);
+    return fmi2Discard;
+}
+
+fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind s, fmi2Status *value)
+{
+    fmi2_instance *f = fmi2_enter(c, "fmi2GetStatus", PHASES_STATUS);
+    (void)value;
+    return f ? not_available(f, "fmi2GetStatus", (int)s) : fmi2Error;
+}
+
+fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind s, fmi2Real *value)
+{
+    fmi2_instance *f = fmi2_enter(c, "fmi2GetRealStatus", PHASES_STATUS);
+    if (!f)
+        return fmi2Error;
+    if (s != fmi2LastSuccessfulTime || !value)
+        return not_available(f, "fmi2GetRealStatus", (int)s);
+    *value = f->run.time;
+    return fmi2OK;
+}
+
+fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind s, fmi2Integer *value)
+{
+    fmi2_instance *f = fmi2_enter(c, "fmi2GetIntegerStatus", PHASES_STATUS);
+    (void)value;
+    return f ? not_available(f, "fmi2GetIntegerStatus", (int)s) : fmi2Error;
+}
+
+fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind s, fmi2Boolean *value)
+{
+    fmi2_instance *f = fmi2_enter(c, "fmi2GetBooleanStatus", PHASES_STATUS);
+    if (!f)
+        return fmi2Error;
+    if (s != fmi2Terminated || !value)
+        return not_available(f, "fmi2GetBooleanStatus", (int)s);
+    *value = fmi2False; /* the component never asks to end the simulation */
+    return fmi2OK;
+}
+
+fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind s, fmi2String *value)
+{
+    fmi2_instance *f = fmi2_enter(c, "fmi2GetStringStatus", PHASES_STATUS);
+    (void)value;
+    return f ? not_available(f, "fmi2GetStringStatus", (int)s) : fmi2Error;
+}
+
+static fmi2Status not_offered(fmi2Component c, const char *function)
+{
+    fmi2_instance *f = fmi2_enter(c, function, FMI2_PHASES_ANY);
+    return f ? fmi2_fail(f, function, "this FMU does not have the capability") : fmi2Error;
+}
+
+fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *FMUstate)
+{
+    (void)FMUstate;
+    return not_offered(c, "fmi2GetFMUstate");
+}
+
+fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate FMUstate)
+{
+    (void)FMUstate;
+    return not_offered(c, "fmi2SetFMUstate");
+}
+
+fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *FMUstate)
+{
+    (void)FMUstate;
+    return not_offered(c, "fmi2FreeFMUstate");
+}
+
+fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate FMUstate, size_t *size)
+{
+    (void)FMUstate;
+    (void)size;
+    return not_offered(c, "fmi2SerializedFMUstateSize");
+}
+
+fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate FMUstate,
+                                 fmi2Byte serializedState[], size_t size)
+{
+    (void)FMUstate;
+    (void)serializedState;
+    (void)size;
+    return not_offered(c, "fmi2SerializeFMUstate");
+}
+
+fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte serializedState[],
+                                   size_t size, fmi2FMUstate *FMUstate)
+{
+    (void)serializedState;
+    (void)size;
+    (void)FMUstate;
+    return not_offered(c, "fmi2DeSerializeFMUstate");
+}
+
+fmi2Status fmi2GetDirectionalDerivative(fmi2Component c,
+                                        const fmi2ValueReference vUnknown_ref[],
+                                        size_t nUnknown,
+                                        const fmi2ValueReference vKnown_ref[], size_t nKnown,
+                                        const fmi2Real dvKnown[], fmi2Real dvUnknown[])
+{
+    (void)vUnknown_ref;
+    (void)nUnknown;
+    (void)vKnown_ref;
+    (void)nKnown;
+    (void)dvKnown;
+    (void)dvUnknown;
+    return not_offered(c, "fmi2GetDirectionalDerivative");
+}

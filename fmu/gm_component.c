@@ -1,0 +1,192 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+#include "gm_component.h"
+
+static gm_reduced_params params_of(const gm_component *c)
+{
+    gm_reduced_params params = {.loss_scale = c->value[GM_LOSS_SCALE][0].real};
+    for (int p = 0; p < GM_MAX_PATHS; p++)
+        params.sync_torque[p] = c->value[GM_PATH_SYNC_TORQUE][p].real;
+    return params;
+}
+
+static gm_reduced_inputs inputs_of(const gm_component *c)
+{
+    gm_reduced_inputs inputs = {
+        .output_tau = c->value[GM_OUTPUT_TAU][0].real,
+        .output_tau_rate = c->output_tau_rate,
+        .oil_temperature = c->value[GM_OIL_TEMPERATURE][0].real,
+    };
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        inputs.path_tau[p] = c->value[GM_PATH_TAU][p].real;
+        inputs.path_tau_rate[p] = c->path_tau_rate[p];
+        inputs.gear[p] = c->value[GM_PATH_GEAR][p].integer;
+    }
+    return inputs;
+}
+
+void gm_component_reset(const gm_reduced_map *map, gm_component *c)
+{
+    *c = (gm_component){.start_pending = true, .outputs_pending = true};
+    for (int id = 0; id < GM_VARIABLES; id++)
+        for (int p = 0; p < GM_MAX_PATHS; p++)
+            if (gm_variables[id].type == GM_TYPE_REAL)
+                c->value[id][p].real = gm_variables[id].start;
+            else
+                c->value[id][p].integer = (int)gm_variables[id].start;
+    for (int p = 0; p < map->n_paths; p++) {
+        gm_real torque = map->path[p].sync_torque;
+        c->value[GM_PATH_SYNC_TORQUE][p].real = torque < GM_INFINITE ? torque : GM_INFINITE;
+    }
+}
+
+/* Copy what the state says into the variables: no evaluation needed for these. */
+static void publish(const gm_reduced_map *map, gm_component *c)
+{
+    static const int refused[GM_MAX_PATHS] = {GM_FLAG_GEAR_REFUSED_0,
+                                              GM_FLAG_GEAR_REFUSED_1};
+    const gm_reduced_state *s = &c->state;
+    c->value[GM_OUTPUT_PHI][0].real = s->phi_o;
+    c->value[GM_OUTPUT_W][0].real = s->w_o;
+    c->value[GM_WORK][0].real = s->work;
+    c->value[GM_LOSS_ENERGY][0].real = s->loss_energy;
+    for (int p = 0; p < map->n_paths; p++) {
+        c->value[GM_PATH_PHI][p].real = s->path[p].phi;
+        c->value[GM_PATH_W][p].real = s->path[p].w;
+        c->value[GM_PATH_STATE][p].integer = s->path[p].mode;
+        c->value[GM_PATH_GEAR_REFUSED][p].integer = (c->flags & refused[p]) != 0;
+    }
+    c->outputs_pending = true;
+}
+
+int gm_component_start(const gm_reduced_map *map, gm_component *c)
+{
+    gm_reduced_inputs inputs = inputs_of(c);
+    gm_reduced_state state;
+    gm_real w[GM_MAX_PATHS];
+    for (int p = 0; p < GM_MAX_PATHS; p++)
+        w[p] = c->value[GM_PATH_W_START][p].real;
+    int flags =
+        gm_reduced_start(map, &inputs, c->value[GM_OUTPUT_W_START][0].real, w, &state);
+    if (flags & GM_FLAG_NOT_FINITE)
+        return flags;
+    state.phi_o = c->value[GM_OUTPUT_PHI][0].real;
+    state.work = c->value[GM_WORK][0].real;
+    state.loss_energy = c->value[GM_LOSS_ENERGY][0].real;
+    for (int p = 0; p < map->n_paths; p++)
+        state.path[p].phi = c->value[GM_PATH_PHI][p].real;
+    c->state = state;
+    c->flags = flags;
+    c->start_pending = false;
+    publish(map, c);
+    return flags;
+}
+
+int gm_component_step(const gm_reduced_map *map, gm_component *c, gm_real h)
+{
+    gm_reduced_params params = params_of(c);
+    gm_reduced_inputs inputs = inputs_of(c);
+    int flags = gm_reduced_step(map, &params, &inputs, h, &c->state);
+    if (flags & GM_FLAG_NOT_FINITE)
+        return flags;
+    c->flags = flags;
+    c->value[GM_OUTPUT_TAU][0].real += c->output_tau_rate * h;
+    for (int p = 0; p < map->n_paths; p++)
+        c->value[GM_PATH_TAU][p].real += c->path_tau_rate[p] * h;
+    publish(map, c);
+    return flags;
+}
+
+void gm_component_set(gm_component *c, gm_reference reference, gm_value value)
+{
+    c->value[reference.id][reference.path] = value;
+    c->start_pending = true;
+    c->outputs_pending = true;
+}
+
+bool gm_component_set_rate(gm_component *c, gm_reference reference, gm_real rate)
+{
+    if (reference.id == GM_OUTPUT_TAU)
+        c->output_tau_rate = rate;
+    else if (reference.id == GM_PATH_TAU)
+        c->path_tau_rate[reference.path] = rate;
+    else
+        return false;
+    return true;
+}
+
+/* Accelerations, losses and energies of the state under the present inputs. */
+static bool evaluate(const gm_reduced_map *map, gm_component *c)
+{
+    gm_reduced_params params = params_of(c);
+    gm_reduced_inputs inputs = inputs_of(c);
+    gm_reduced_outputs out;
+    int flags = gm_reduced_outputs_at(map, &params, &inputs, &c->state, &out);
+    if (flags & GM_FLAG_NOT_FINITE)
+        return false;
+    c->value[GM_OUTPUT_A][0].real = out.a_o;
+    c->value[GM_OUTPUT_LOSS_TORQUE][0].real = out.output_loss_torque;
+    c->value[GM_LOSS_POWER][0].real = out.loss_power;
+    c->value[GM_KINETIC_ENERGY][0].real = out.kinetic_energy;
+    c->value[GM_OUT_OF_MAP][0].integer = ((flags | c->flags) & GM_FLAG_OUT_OF_MAP) != 0;
+    for (int p = 0; p < map->n_paths; p++) {
+        c->value[GM_PATH_A][p].real = out.a[p];
+        c->value[GM_PATH_LOSS_TORQUE][p].real = out.path_loss_torque[p];
+    }
+    c->outputs_pending = false;
+    return true;
+}
+
+/* Does the variable come from evaluate, not from the state? */
+static bool is_evaluated(gm_variable_id id)
+{
+    switch (id) {
+    case GM_OUTPUT_A:
+    case GM_OUTPUT_LOSS_TORQUE:
+    case GM_LOSS_POWER:
+    case GM_KINETIC_ENERGY:
+    case GM_OUT_OF_MAP:
+    case GM_PATH_A:
+    case GM_PATH_LOSS_TORQUE:
+        return true;
+    default:
+        return false;
+    }
+}
+
+bool gm_component_get(const gm_reduced_map *map, gm_component *c, gm_reference reference,
+                      gm_value *value)
+{
+    if (is_evaluated(reference.id) && c->outputs_pending && !evaluate(map, c))
+        return false;
+    *value = c->value[reference.id][reference.path];
+    return true;
+}
+
+bool gm_component_rate(const gm_reduced_map *map, gm_component *c, gm_reference reference,
+                       gm_real *rate)
+{
+    gm_value value;
+    switch (reference.id) {
+    case GM_PATH_PHI:
+        reference.id = GM_PATH_W;
+        break;
+    case GM_OUTPUT_PHI:
+        reference.id = GM_OUTPUT_W;
+        break;
+    case GM_PATH_W:
+        reference.id = GM_PATH_A;
+        break;
+    case GM_OUTPUT_W:
+        reference.id = GM_OUTPUT_A;
+        break;
+    case GM_LOSS_ENERGY:
+        reference.id = GM_LOSS_POWER;
+        break;
+    default:
+        return false;
+    }
+    if (!gm_component_get(map, c, reference, &value))
+        return false;
+    *rate = value.real;
+    return true;
+}

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The component: one reduced gearset, its variables and its state. One plain struct
+ * without pointers, so that to save it is to copy it. Knows nothing of FMI: phases, times
+ * and messages are gm_run.h and fmi2*.c.
+ *
+ * A torque input u set with slope u' is the signal u + u' t from then on; after a step of
+ * h it stands at u + u' h and keeps its slope until either is set again.
+ */
+#ifndef GM_COMPONENT_H
+#define GM_COMPONENT_H
+
+#include "gm_reduced.h"
+#include "gm_variables.h"
+
+typedef union gm_value {
+    gm_real real;
+    int integer; /* also booleans and enumerations */
+} gm_value;
+
+typedef struct gm_component {
+    gm_value value[GM_VARIABLES][GM_MAX_PATHS]; /* [id][path], path 0 where none */
+    gm_real output_tau_rate, path_tau_rate[GM_MAX_PATHS];
+    gm_reduced_state state;
+    int flags;            /* of the last start or step, gm_reduced.h */
+    bool start_pending;   /* a start value changed since gm_component_start */
+    bool outputs_pending; /* accelerations, losses and energies are of an older point */
+} gm_component;
+
+/** All variables at their start values; sync_torque from the map. */
+void gm_component_reset(const gm_reduced_map *map, gm_component *c);
+
+/** Engage the commanded gears and set speeds and angles from the start values. Returns
+ *  flags; GM_FLAG_NOT_FINITE: no valid start, the state is not to be used. */
+int gm_component_start(const gm_reduced_map *map, gm_component *c);
+
+/** One step of h > 0 s. Returns flags; GM_FLAG_NOT_FINITE: nothing was changed. */
+int gm_component_step(const gm_reduced_map *map, gm_component *c, gm_real h);
+
+/** Store a value; the caller has checked that it may be set (gm_run_settable). */
+void gm_component_set(gm_component *c, gm_reference reference, gm_value value);
+
+/** Slope of a torque input [N.m/s]; false when the variable is not one. */
+bool gm_component_set_rate(gm_component *c, gm_reference reference, gm_real rate);
+
+/** Value of a variable at this instant; false when it overflowed. */
+bool gm_component_get(const gm_reduced_map *map, gm_component *c, gm_reference reference,
+                      gm_value *value);
+
+/** First derivative of an angle, a speed or the loss energy at this instant; false when
+ *  the variable has none to offer or it overflowed. */
+bool gm_component_rate(const gm_reduced_map *map, gm_component *c, gm_reference reference,
+                       gm_real *rate);
+
+#endif

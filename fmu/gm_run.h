@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * One run of the component: the phase of its life, its clock, and what may be done when.
+ * The phases are those of FMI 2.0 and 3.0 Co-Simulation. A plain struct without pointers;
+ * how verdicts become status codes and messages is the matter of the FMI version.
+ */
+#ifndef GM_RUN_H
+#define GM_RUN_H
+
+#include "gm_component.h"
+
+/** Bits, so that a set of phases is a mask. */
+typedef enum gm_phase {
+    GM_PHASE_INSTANTIATED = 1,
+    GM_PHASE_INITIALISATION = 2,
+    GM_PHASE_STEP = 4,       /* a communication point: the last step is complete */
+    GM_PHASE_STEP_FAILED = 8, /* the last step was not done */
+    GM_PHASE_TERMINATED = 16,
+    GM_PHASE_ERROR = 32
+} gm_phase;
+
+typedef struct gm_run {
+    gm_component component;
+    gm_phase phase;
+    bool experiment_set;      /* start time given */
+    bool stop_defined;
+    gm_real time, stop_time;  /* s */
+    gm_real last_step;        /* s, 0 before the first */
+    bool map_left;            /* leaving the map was reported */
+    bool gear_reported[GM_MAX_PATHS];  /* the refused command was reported, */
+    int reported_gear[GM_MAX_PATHS];   /* and this is which */
+} gm_run;
+
+typedef enum gm_verdict {
+    GM_VERDICT_OK,
+    GM_VERDICT_UNKNOWN,    /* no such value reference */
+    GM_VERDICT_TYPE,       /* the variable has another type */
+    GM_VERDICT_READ_ONLY,  /* it can never be set */
+    GM_VERDICT_PHASE,      /* it cannot be set now */
+    GM_VERDICT_NOT_FINITE, /* NaN or infinite */
+    GM_VERDICT_RANGE,      /* outside min..max */
+    GM_VERDICT_STEP_SIZE,  /* not positive and finite */
+    GM_VERDICT_TIME,       /* not the time where the last step ended */
+    GM_VERDICT_STOP,       /* beyond the stop time */
+    GM_VERDICT_OVERFLOW    /* numbers left the range of double */
+} gm_verdict;
+
+/** As after instantiation. The reports of map_left are kept: once per instance. */
+void gm_run_reset(const gm_reduced_map *map, gm_run *run);
+
+/** Variable of a value reference, if it is carried by `carrier`. */
+gm_verdict gm_run_find(const gm_reduced_map *map, unsigned vr, gm_type carrier,
+                       gm_reference *reference);
+
+/** Set if variable, phase and value allow it. */
+gm_verdict gm_run_set(gm_run *run, gm_reference reference, gm_value value);
+
+/** Get; in initialisation the start is computed anew when a start value changed. */
+gm_verdict gm_run_get(const gm_reduced_map *map, gm_run *run, gm_reference reference,
+                      gm_value *value);
+
+/** Finish initialisation: the component starts. */
+gm_verdict gm_run_start(const gm_reduced_map *map, gm_run *run);
+
+/** Step from time t by h. On GM_VERDICT_OVERFLOW nothing has changed. */
+gm_verdict gm_run_step(const gm_reduced_map *map, gm_run *run, gm_real t, gm_real h);
+
+/** True once for each refused command on path p. */
+bool gm_run_gear_refused(gm_run *run, int p);
+
+/** True once, when the map has been left. */
+bool gm_run_map_left(gm_run *run);
+
+/** True when the number is neither NaN nor infinite. */
+bool gm_number_is_finite(gm_real x);
+
+#endif

@@ -1,0 +1,319 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * An FMI 2.0 FMU from a map: tables, model description, documentation, the component's
+ * sources as they stand, and a library compiled from exactly these sources.
+ *
+ *   binaries/linux64/<name>.so   documentation/index.html   licenses/license.txt
+ *   modelDescription.xml         sources/
+ *
+ * The GUID is a SHA-256 over the description and the tables (with an empty GUID in both),
+ * in the shape of a UUID.
+ */
+#include "bake/gm_bake.h"
+
+#include "bake/compile.h"
+#include "bake/documentation.h"
+#include "bake/model_description.h"
+#include "bake/package.h"
+#include "bake/tables.h"
+#include "base/alloc.h"
+#include "base/sha256.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#define IDENTIFIER_SIZE 64
+
+/* What the steps of one bake share. */
+typedef struct job {
+    const gm_map *map;
+    const gm_reduced_map *reduced;
+    const gm_bake_options *options;
+    const char *target;
+    gm_compiler compiler;
+    gm_package package;
+    char identifier[IDENTIFIER_SIZE];
+    char guid[48];
+    long library_size;
+    gm_error *error;
+} job;
+
+static bool is_lower(char c)
+{
+    return c >= 'a' && c <= 'z';
+}
+
+static bool is_word(char c)
+{
+    return is_lower(c) || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+/* A C identifier from the map's name: letters, digits and underscores. */
+static void make_identifier(const char *name, char identifier[IDENTIFIER_SIZE])
+{
+    int n = 0;
+    if (!is_word(name[0]) || (name[0] >= '0' && name[0] <= '9'))
+        n = snprintf(identifier, IDENTIFIER_SIZE, "gearset%s", name[0] ? "_" : "");
+    for (; *name && n < IDENTIFIER_SIZE - 1; name++)
+        identifier[n++] = is_word(*name) ? *name : '_';
+    identifier[n] = '\0';
+}
+
+/* Names of paths become parts of variable names and of C. */
+static gm_status check_names(const job *j)
+{
+    for (int p = 0; p < j->map->n_paths; p++) {
+        const char *name = j->map->paths[p].name;
+        bool good = is_lower(name[0]);
+        for (const char *c = name; *c; c++)
+            good = good && is_word(*c);
+        if (!good)
+            return gm_fail(j->error, GM_ERR_FORMAT,
+                           "the map's path name \"%s\" is not a lower-case word", name);
+        if (!strcmp(name, "output"))
+            return gm_fail(j->error, GM_ERR_FORMAT,
+                           "a path of the map is named output, like the output flange");
+    }
+    return GM_OK;
+}
+
+static gm_status add_sources(job *j)
+{
+    static const char *const folder[] = {"core", "fmu", "fmi2"};
+    char path[4096];
+    gm_status status = GM_OK;
+    if (!j->options->share)
+        return gm_fail(j->error, GM_ERR_ARGUMENT,
+                       "the folder with the component's sources is not known");
+    for (int i = 0; status == GM_OK && i < 3; i++) {
+        if (snprintf(path, sizeof path, "%s/%s", j->options->share, folder[i]) >=
+            (int)sizeof path)
+            return gm_fail(j->error, GM_ERR_IO, "%s: the path is too long",
+                           j->options->share);
+        status = gm_package_add_folder(&j->package, "sources/", path, j->error);
+    }
+    if (status != GM_OK)
+        return status;
+    snprintf(path, sizeof path, "%s/LICENSE", j->options->share);
+    return gm_package_add_file(&j->package, "licenses/license.txt", path, j->error);
+}
+
+/* Names of the C files in the package, sorted, pointing into it; NULL: no memory. */
+static const char **list_sources(const gm_package *package, int *n)
+{
+    const char **names = gm_calloc((size_t)package->n, sizeof *names);
+    *n = 0;
+    for (int i = 0; names && i < package->n; i++) {
+        const char *name = package->files[i].name;
+        size_t length = strlen(name);
+        if (!strncmp(name, "sources/", 8) && !strcmp(name + length - 2, ".c"))
+            names[(*n)++] = name + 8;
+    }
+    return names;
+}
+
+static gm_status describe(const job *j, gm_buffer *buffer)
+{
+    int n;
+    const char **sources = list_sources(&j->package, &n);
+    if (!sources)
+        return gm_fail(j->error, GM_ERR_MEMORY, "no memory to list the sources");
+    gm_description_options options = {j->identifier, j->guid, n, sources};
+    gm_status status = gm_model_description_write(j->map, &options, buffer, j->error);
+    gm_free(sources);
+    return status;
+}
+
+static gm_status make_texts(const job *j, gm_buffer *description, gm_buffer *tables)
+{
+    gm_status status = describe(j, description);
+    if (status == GM_OK)
+        status = gm_tables_write(j->map, j->reduced, j->guid, tables, j->error);
+    return status;
+}
+
+/* {8-4-4-4-12} of the first 32 hexadecimal digits. */
+static gm_status make_guid(job *j)
+{
+    gm_buffer description = {0}, tables = {0};
+    char hash[GM_SHA256_TEXT];
+    gm_sha256 *sum = gm_sha256_create();
+    gm_status status = sum ? make_texts(j, &description, &tables)
+                           : gm_fail(j->error, GM_ERR_MEMORY, "no memory for a hash");
+    if (status == GM_OK) {
+        gm_sha256_text(sum, description.data);
+        gm_sha256_text(sum, tables.data);
+        gm_sha256_finish(sum, hash);
+        snprintf(j->guid, sizeof j->guid, "{%.8s-%.4s-%.4s-%.4s-%.12s}", hash, hash + 8,
+                 hash + 12, hash + 16, hash + 20);
+    }
+    gm_sha256_destroy(sum);
+    gm_buffer_clear(&description);
+    gm_buffer_clear(&tables);
+    return status;
+}
+
+static gm_status add_texts(job *j)
+{
+    gm_buffer description = {0}, tables = {0}, page = {0};
+    gm_status status = make_texts(j, &description, &tables);
+    if (status == GM_OK) {
+        gm_documentation_write(j->map, j->guid, &page);
+        status = gm_package_add(&j->package, "documentation/index.html", &page, j->error);
+    }
+    if (status == GM_OK)
+        status =
+            gm_package_add(&j->package, "modelDescription.xml", &description, j->error);
+    if (status == GM_OK)
+        status = gm_package_add(&j->package, "sources/gm_tables.h", &tables, j->error);
+    gm_buffer_clear(&description);
+    gm_buffer_clear(&tables);
+    gm_buffer_clear(&page);
+    gm_package_sort(&j->package);
+    return status;
+}
+
+static void remove_folder(const char *folder)
+{
+    DIR *directory = opendir(folder);
+    struct dirent *entry;
+    char path[4096];
+    while (directory && (entry = readdir(directory)) != NULL)
+        if (snprintf(path, sizeof path, "%s/%s", folder, entry->d_name) < (int)sizeof path)
+            (void)unlink(path); /* "." and ".." are refused by the system */
+    if (directory)
+        closedir(directory);
+    (void)rmdir(folder);
+}
+
+static gm_status compile_in(job *j, const char *folder)
+{
+    char library[IDENTIFIER_SIZE + 8], path[4096], entry[160];
+    int n;
+    gm_status status = gm_package_extract(&j->package, "sources/", folder, j->error);
+    if (status != GM_OK)
+        return status;
+    const char **sources = list_sources(&j->package, &n);
+    if (!sources)
+        return gm_fail(j->error, GM_ERR_MEMORY, "no memory to list the sources");
+    snprintf(library, sizeof library, "%s" GM_LIBRARY_ENDING, j->identifier);
+    status = gm_compile(&j->compiler, folder, n, sources, library, j->error);
+    gm_free(sources);
+    snprintf(path, sizeof path, "%s/%s", folder, library);
+    snprintf(entry, sizeof entry, "binaries/" GM_FMI2_PLATFORM "/%s", library);
+    if (status == GM_OK)
+        status = gm_package_add_file(&j->package, entry, path, j->error);
+    if (status == GM_OK)
+        j->library_size = (long)j->package.files[j->package.n - 1].content.size;
+    return status;
+}
+
+static gm_status add_library(job *j)
+{
+    const char *base = getenv("TMPDIR");
+    char folder[2048];
+    if (snprintf(folder, sizeof folder, "%s/gearmap-XXXXXX", base && *base ? base : "/tmp") >=
+            (int)sizeof folder ||
+        !mkdtemp(folder))
+        return gm_fail(j->error, GM_ERR_IO, "%s: no temporary folder can be made: %s",
+                       folder, strerror(errno));
+    gm_status status = compile_in(j, folder);
+    remove_folder(folder);
+    gm_package_sort(&j->package);
+    return status;
+}
+
+static gm_status build_package(job *j)
+{
+    gm_status status = check_names(j);
+    if (status == GM_OK)
+        status = add_sources(j);
+    gm_package_sort(&j->package);
+    if (status == GM_OK)
+        status = make_guid(j);
+    if (status == GM_OK)
+        status = add_texts(j);
+    if (status == GM_OK)
+        status = add_library(j);
+    return status;
+}
+
+/* Take the place before the work: an unwritable output is refused at once. */
+static gm_status reserve_place(const job *j, char *part, size_t size)
+{
+    struct stat info;
+    if (stat(j->target, &info) == 0 && !S_ISREG(info.st_mode))
+        return gm_fail(j->error, GM_ERR_IO, "%s: is not a file that could be replaced",
+                       j->target);
+    if (snprintf(part, size, "%s.XXXXXX", j->target) >= (int)size)
+        return gm_fail(j->error, GM_ERR_IO, "%s: the path is too long", j->target);
+    int file = mkstemp(part);
+    if (file < 0)
+        return gm_fail(j->error, GM_ERR_IO, "%s: cannot be written: %s", j->target,
+                       strerror(errno));
+    close(file);
+    return GM_OK;
+}
+
+/* mkstemp makes private files; the result gets the rights of any new file. */
+static void usual_rights(const char *path)
+{
+    mode_t mask = umask(0);
+    (void)umask(mask);
+    (void)chmod(path, 0666 & ~mask);
+}
+
+static gm_status put_in_place(const job *j, const char *part)
+{
+    gm_status status = gm_package_write(&j->package, part, j->error);
+    if (status != GM_OK)
+        return status;
+    usual_rights(part);
+    if (rename(part, j->target) != 0)
+        return gm_fail(j->error, GM_ERR_IO, "%s: cannot be written: %s", j->target,
+                       strerror(errno));
+    return GM_OK;
+}
+
+static void summarise(const job *j, gm_bake_summary *summary)
+{
+    struct stat info;
+    *summary = (gm_bake_summary){.library_size = j->library_size};
+    if (stat(j->target, &info) == 0)
+        summary->file_size = (long)info.st_size;
+    snprintf(summary->compiler, sizeof summary->compiler, "%.255s", j->compiler.path);
+    snprintf(summary->guid, sizeof summary->guid, "%s", j->guid);
+}
+
+gm_status gm_bake_fmu2(const gm_map *map, const gm_bake_options *options, const char *path,
+                       gm_bake_summary *summary, gm_error *error)
+{
+    job j = {.map = map, .options = options, .target = path, .error = error};
+    gm_map_view *view = NULL;
+    char part[4096] = "";
+    make_identifier(map->name, j.identifier);
+    gm_status status = reserve_place(&j, part, sizeof part);
+    bool reserved = status == GM_OK;
+    if (status == GM_OK)
+        status = gm_compiler_find(options->compiler, &j.compiler, error);
+    if (status == GM_OK)
+        status = gm_map_view_create(map, &view, error);
+    if (status == GM_OK) {
+        j.reduced = gm_map_view_reduced(view);
+        status = build_package(&j);
+    }
+    if (status == GM_OK)
+        status = put_in_place(&j, part);
+    if (status != GM_OK && reserved)
+        (void)unlink(part);
+    if (status == GM_OK && summary)
+        summarise(&j, summary);
+    gm_map_view_destroy(view);
+    gm_package_clear(&j.package);
+    return status;
+}

@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * Dependencies, for torque in and speed out with losses that depend on load:
+ *   - angles, speeds, energies, states are states of the component: no direct dependency;
+ *   - accelerations and losses follow the torques of all flanges, since the transmitted
+ *     torque is what is left after accelerating both sides;
+ *   - at the start commanded gears are engaged at once, and output.w_start wins.
+ */
+#include "bake/variables.h"
+
+#include <string.h>
+
+const variable gm_bake_variables[] = {
+#define GM_VAR(id, scope_, name_, type_, causality_, variability_, initial_, unit_, start_, \
+               min_, max_, nominal_, description_)                                         \
+    [VARIABLE_##id] = {.name = name_,                                                      \
+                       .scope = SCOPE_##scope_,                                            \
+                       .type = TYPE_##type_,                                               \
+                       .causality = CAUSALITY_##causality_,                                \
+                       .variability = VARIABILITY_##variability_,                          \
+                       .initial = INITIAL_##initial_,                                      \
+                       .unit = unit_,                                                      \
+                       .start = start_,                                                    \
+                       .min = min_,                                                        \
+                       .max = max_,                                                        \
+                       .nominal = nominal_,                                                \
+                       .description = description_},
+#include "core/gm_vars.def"
+#undef GM_VAR
+};
+
+int gm_bake_scalars(int n_paths, scalar *all)
+{
+    int n = 0;
+    for (int id = 0; id < N_VARIABLES; id++) {
+        if (gm_bake_variables[id].scope == SCOPE_ALL)
+            all[n++] = (scalar){(variable_id)id, -1};
+        else
+            for (int p = 0; p < n_paths; p++)
+                all[n++] = (scalar){(variable_id)id, p};
+    }
+    return n;
+}
+
+unsigned gm_bake_reference(scalar s)
+{
+    return 8u * (unsigned)s.id + (unsigned)(s.path + 1);
+}
+
+/* Follows the load on the flanges, not only the state. */
+static bool follows_load(variable_id id)
+{
+    switch (id) {
+    case VARIABLE_PATH_A:
+    case VARIABLE_OUTPUT_A:
+    case VARIABLE_PATH_LOSS_TORQUE:
+    case VARIABLE_OUTPUT_LOSS_TORQUE:
+    case VARIABLE_LOSS_POWER:
+    case VARIABLE_OUT_OF_MAP:
+        return true;
+    default:
+        return false;
+    }
+}
+
+static bool is_torque(variable_id id)
+{
+    return id == VARIABLE_PATH_TAU || id == VARIABLE_OUTPUT_TAU;
+}
+
+bool gm_bake_depends(scalar of, scalar on)
+{
+    return follows_load(of.id) && is_torque(on.id);
+}
+
+static bool sets_speeds(variable_id id)
+{
+    return id == VARIABLE_OUTPUT_W_START || id == VARIABLE_PATH_W_START ||
+           id == VARIABLE_PATH_GEAR;
+}
+
+bool gm_bake_depends_initially(scalar of, scalar on)
+{
+    switch (of.id) {
+    case VARIABLE_OUTPUT_W:
+        return on.id == VARIABLE_OUTPUT_W_START;
+    case VARIABLE_PATH_W:
+        return on.id == VARIABLE_OUTPUT_W_START ||
+               (sets_speeds(on.id) && on.path == of.path);
+    case VARIABLE_PATH_STATE:
+    case VARIABLE_PATH_GEAR_REFUSED:
+        return on.id == VARIABLE_PATH_GEAR && on.path == of.path;
+    case VARIABLE_KINETIC_ENERGY:
+        return sets_speeds(on.id);
+    default:
+        return follows_load(of.id) &&
+               (is_torque(on.id) || sets_speeds(on.id) || on.id == VARIABLE_LOSS_SCALE);
+    }
+}
+
+#define RPM 9.5492965855137201 /* 30/pi */
+#define DEGREES 57.295779513082321
+
+static const unit_type units[] = {
+    {"1", "Factor", "Factor", 0, 0, 0, 0, 0, {NULL, 0.0, 0.0}},
+    {"J", "Energy", "Energy", 1, 2, -2, 0, 0, {"kJ", 1e-3, 0.0}},
+    {"K", "Temperature", "ThermodynamicTemperature", 0, 0, 0, 1, 0, {"degC", 1.0, -273.15}},
+    {"N.m", "Torque", "Torque", 1, 2, -2, 0, 0, {NULL, 0.0, 0.0}},
+    {"W", "Power", "Power", 1, 2, -3, 0, 0, {"kW", 1e-3, 0.0}},
+    {"rad", "Angle", "Angle", 0, 0, 0, 0, 1, {"deg", DEGREES, 0.0}},
+    {"rad/s", "AngularVelocity", "AngularVelocity", 0, 0, -1, 0, 1, {"rpm", RPM, 0.0}},
+    {"rad/s2", "AngularAcceleration", "AngularAcceleration", 0, 0, -2, 0, 1,
+     {NULL, 0.0, 0.0}},
+};
+enum { N_UNITS = sizeof units / sizeof *units };
+
+int gm_bake_units(const unit_type **all)
+{
+    *all = units;
+    return N_UNITS;
+}
+
+const unit_type *gm_bake_unit(const char *unit)
+{
+    for (int i = 0; i < N_UNITS; i++)
+        if (!strcmp(units[i].unit, unit))
+            return &units[i];
+    return NULL;
+}

@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * Read with libxml2: no network, no external entities, messages caught.
+ */
+#include "plant/fmu_description.h"
+
+#include "base/alloc.h"
+
+#include <libxml/parser.h>
+#include <libxml/tree.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static xmlNode *child(const xmlNode *parent, const char *name)
+{
+    for (xmlNode *node = parent->children; node; node = node->next)
+        if (node->type == XML_ELEMENT_NODE && !xmlStrcmp(node->name, BAD_CAST name))
+            return node;
+    return NULL;
+}
+
+/* Copy of an attribute's value; NULL when it is missing or there is no memory. */
+static char *attribute(xmlNode *node, const char *name)
+{
+    xmlChar *value = xmlGetProp(node, BAD_CAST name);
+    char *copy = value ? gm_strdup((const char *)value) : NULL;
+    xmlFree(value);
+    return copy;
+}
+
+static bool read_reference(const char *text, unsigned *reference)
+{
+    char *rest;
+    unsigned long value = text && *text >= '0' && *text <= '9' ? strtoul(text, &rest, 10)
+                                                               : (rest = NULL, 0UL);
+    *reference = (unsigned)value;
+    return rest && *rest == '\0' && value <= 0xffffffffUL;
+}
+
+static gm_status read_variable(xmlNode *node, const char *archive, fmu_variable *variable,
+                               gm_error *error)
+{
+    char *reference = attribute(node, "valueReference");
+    variable->name = attribute(node, "name");
+    bool good = variable->name && read_reference(reference, &variable->reference);
+    gm_free(reference);
+    if (good)
+        return GM_OK;
+    return gm_fail(error, GM_ERR_FORMAT,
+                   "%s: modelDescription.xml, line %ld: a variable without a name or a "
+                   "value reference", archive, xmlGetLineNo(node));
+}
+
+static int compare(const void *a, const void *b)
+{
+    return strcmp(((const fmu_variable *)a)->name, ((const fmu_variable *)b)->name);
+}
+
+static gm_status read_variables(xmlNode *list, const char *archive, fmu_description *d,
+                                gm_error *error)
+{
+    unsigned long n = xmlChildElementCount(list);
+    gm_status status = GM_OK;
+    d->variables = gm_calloc(n, sizeof *d->variables);
+    if (!d->variables)
+        return gm_fail(error, GM_ERR_MEMORY, "no memory for the variables of %s", archive);
+    for (xmlNode *node = list->children; node && status == GM_OK; node = node->next)
+        if (node->type == XML_ELEMENT_NODE)
+            status =
+                read_variable(node, archive, &d->variables[d->n_variables++], error);
+    if (status == GM_OK && d->n_variables > 1)
+        qsort(d->variables, (size_t)d->n_variables, sizeof *d->variables, compare);
+    return status;
+}
+
+/* The identifier becomes part of a path. */
+static bool is_identifier(const char *text)
+{
+    return text && *text &&
+           strspn(text, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") ==
+               strlen(text);
+}
+
+static gm_status read_root(xmlNode *root, const char *archive, fmu_description *d,
+                           gm_error *error)
+{
+    char *version = root ? attribute(root, "fmiVersion") : NULL;
+    bool is_fmi2 = version && !strcmp(version, "2.0");
+    xmlNode *mode = is_fmi2 ? child(root, "CoSimulation") : NULL;
+    xmlNode *list = is_fmi2 ? child(root, "ModelVariables") : NULL;
+    gm_free(version);
+    if (!is_fmi2)
+        return gm_fail(error, GM_ERR_FORMAT, "%s: is not an FMU of FMI 2.0", archive);
+    if (!mode || !list)
+        return gm_fail(error, GM_ERR_FORMAT, "%s: the FMU does not offer Co-Simulation",
+                       archive);
+    d->guid = attribute(root, "guid");
+    d->identifier = attribute(mode, "modelIdentifier");
+    if (!d->guid || !is_identifier(d->identifier))
+        return gm_fail(error, GM_ERR_FORMAT,
+                       "%s: modelDescription.xml has no GUID or no model identifier",
+                       archive);
+    return read_variables(list, archive, d, error);
+}
+
+static void keep_quiet(void *context, xmlErrorPtr message)
+{
+    (void)context;
+    (void)message;
+}
+
+gm_status gm_fmu_description_read(const char *path, const char *archive,
+                                  fmu_description *description, gm_error *error)
+{
+    fmu_description d = {0};
+    gm_status status;
+    xmlParserCtxt *parser = xmlNewParserCtxt();
+    if (!parser)
+        return gm_fail(error, GM_ERR_MEMORY, "no memory to read %s", archive);
+    parser->sax->serror = keep_quiet;
+    xmlDoc *document = xmlCtxtReadFile(parser, path, NULL,
+                                       XML_PARSE_NONET | XML_PARSE_NOERROR |
+                                           XML_PARSE_NOWARNING);
+    if (document)
+        status = read_root(xmlDocGetRootElement(document), archive, &d, error);
+    else
+        status = gm_fail(error, GM_ERR_FORMAT,
+                         "%s: modelDescription.xml is missing or not well-formed (line %d)",
+                         archive, parser->lastError.line);
+    xmlFreeDoc(document);
+    xmlFreeParserCtxt(parser);
+    if (status == GM_OK)
+        *description = d;
+    else
+        gm_fmu_description_clear(&d);
+    return status;
+}
+
+const fmu_variable *gm_fmu_description_find(const fmu_description *description,
+                                            const char *name)
+{
+    char key_name[256];
+    if (snprintf(key_name, sizeof key_name, "%s", name) >= (int)sizeof key_name)
+        return NULL;
+    fmu_variable key = {.name = key_name};
+    return bsearch(&key, description->variables, (size_t)description->n_variables,
+                   sizeof key, compare);
+}
+
+void gm_fmu_description_clear(fmu_description *description)
+{
+    for (int i = 0; i < description->n_variables; i++)
+        gm_free(description->variables[i].name);
+    gm_free(description->variables);
+    gm_free(description->guid);
+    gm_free(description->identifier);
+    *description = (fmu_description){0};
+}
