@@ -52,7 +52,7 @@ gm_table_key gm_table_key_of(gm_symbol symbol);
 
 /* Limits, far beyond any sweep, that keep a damaged file from asking for all memory. */
 #define GM_MAP_MAX_GEARS 64
-#define GM_MAP_MAX_TABLES 65536
+#define GM_MAP_MAX_TABLES 8192
 #define GM_MAP_MAX_NODES 100000
 #define GM_MAP_MAX_VALUES 10000000 /* of one table */
 
