@@ -32,9 +32,9 @@ typedef struct gm_sweep_progress {
 typedef int (*gm_sweep_report)(void *user, const gm_sweep_progress *progress);
 
 typedef struct gm_sweep_summary {
-    long points;      /* solved now, without resumed ones */
+    long points; /* solved now, without resumed ones */
     long resumed;
-    double elapsed;   /* s */
+    double elapsed;                 /* s */
     double largest_ratio_deviation; /* identified against given ratios, relative */
 } gm_sweep_summary;
 
@@ -42,10 +42,10 @@ typedef struct gm_sweep_summary {
  *  The result does not depend on the number of threads nor on interruptions.
  *  GM_ERR_MODEL when an identified ratio differs from the given one by more than 1e-3 or
  *  in sign, or the tables would not give a unique solution (|dD/dtau| >= 1). */
-GM_NODISCARD gm_status gm_sweep_run(const gm_plant *plant, const gm_sweep_options *options,
-                                    const char *path, gm_sweep_report report, void *user,
-                                    gm_map **map, gm_sweep_summary *summary,
-                                    gm_error *error);
+GM_NODISCARD gm_status gm_sweep_run(const gm_plant *plant,
+                                    const gm_sweep_options *options, const char *path,
+                                    gm_sweep_report report, void *user, gm_map **map,
+                                    gm_sweep_summary *summary, gm_error *error);
 
 #ifdef __cplusplus
 }

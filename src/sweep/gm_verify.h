@@ -14,11 +14,14 @@
 extern "C" {
 #endif
 
-/** What the reduced component answers at a steady point. */
+/** What the reduced component answers at a steady point: speeds as in the point, torques
+ *  at the engaged flanges as in the point, zero at neutral ones, and the detailed
+ *  gearset's torque at the output. */
 typedef struct gm_reduced_answer {
-    double loss_power;                  /* W */
-    double path_drag[GM_MAX_INPUT_PATHS]; /* torque that a path in neutral needs, N.m */
-    double output_reaction; /* output loss torque, N.m */
+    double loss_power; /* W */
+    double
+        path_drag[GM_MAX_INPUT_PATHS]; /* loss torque of a path in neutral, N + C, N.m */
+    double output_reaction; /* loss torque at the output, sigma (P + X) + R, N.m */
 } gm_reduced_answer;
 
 /** The reduced component as verification sees it: the shipped file behind a function. */
@@ -28,23 +31,28 @@ typedef struct gm_reduced_probe {
     void *self;
 } gm_reduced_probe;
 
-/** Errors of one kind of point; relative means divided by the case's largest value. */
+/** Errors of one kind of point. Loss torques at the flange of the loaded path (of the
+ *  faster path when both are loaded), drag at the path's flange, reaction at the output.
+ */
 typedef struct gm_verify_case {
-    const char *path; /* path name, or "both" */
+    const char *path; /* name of the path that is loaded or turns free, or "both" */
     int gear[GM_MAX_INPUT_PATHS];
     int direction; /* +1 or -1: rotation of the output */
     int points;
-    double largest_loss; /* N.m at the input flange */
-    double max, rms;     /* N.m */
-    double worst_speed, worst_torque; /* rad/s, N.m */
+    double largest_loss;               /* detailed, over the case's points, N.m */
+    double max, rms;                   /* N.m */
+    double max_relative, rms_relative; /* of largest_loss */
+    double worst_speed,
+        worst_torque;          /* of the path, where the error is max: rad/s, N.m */
+    double worst_output_speed; /* rad/s */
 } gm_verify_case;
 
 typedef enum gm_verify_group {
     GM_VERIFY_SINGLE,      /* one path engaged, the other at rest in neutral */
     GM_VERIFY_PRESELECTED, /* both engaged, one loaded */
     GM_VERIFY_BOTH_LOADED,
-    GM_VERIFY_DRAG,        /* torque of free shafts turning in neutral */
-    GM_VERIFY_REACTION,    /* their reaction on the output */
+    GM_VERIFY_DRAG,     /* torque of free shafts turning in neutral */
+    GM_VERIFY_REACTION, /* their reaction on the output */
     GM_VERIFY_GROUPS
 } gm_verify_group;
 
@@ -58,9 +66,15 @@ typedef struct gm_verify_result {
     gm_verify_case *cases[GM_VERIFY_GROUPS];
 } gm_verify_result;
 
-/** Compare at `points` random points per group. Free with gm_verify_result_clear. */
-GM_NODISCARD gm_status gm_verify_steady(const gm_plant *plant, const gm_reduced_probe *probe,
-                                        int points, uint64_t seed, gm_verify_result *result,
+/** Compare at `points` >= 1 random points per group: cases, speeds from 1 rpm to the
+ *  plant's largest and torques up to the plant's largest are drawn evenly. Drags and
+ *  reactions leave out the documented ramps around the lines (GM_LINE_WIDTH). Groups that
+ *  need two paths are empty with one. The numbers relative to the whole group weigh every
+ *  point by its own case's largest loss. Free with gm_verify_result_clear.
+ *  GM_ERR_ARGUMENT, GM_ERR_MEMORY, GM_ERR_SOLVE or what the probe answers. */
+GM_NODISCARD gm_status gm_verify_steady(const gm_plant *plant,
+                                        const gm_reduced_probe *probe, int points,
+                                        uint64_t seed, gm_verify_result *result,
                                         gm_error *error);
 void gm_verify_result_clear(gm_verify_result *result);
 

@@ -1,0 +1,390 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+#include "sweep/plan.h"
+
+#include "base/alloc.h"
+#include "sweep/axes.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Nodes of the automatic axes; see axes.h for the power. Kinks may add a few. */
+#define SPEED_NODES 35
+#define SPEED_NODES_MAX 40
+#define SPEED_POWER 3.0
+#define OVERSPEED_NODES 4 /* of a preselected path that turns faster than its maximum */
+#define TORQUE_NODES 14
+#define TORQUE_POWER 3.0
+#define FREE_NODES 21 /* N and R: path speed */
+#define FREE_OUTPUT_NODES 20
+#define FREE_POWER 2.5
+#define COUPLING_NODES 11
+#define BOTH_SPEED_NODES 4
+#define BOTH_SPEED_POWER 2.0
+#define BOTH_TORQUE_NODES 7
+#define BOTH_TORQUE_POWER 2.0
+#define MAX_KINKS 8
+
+typedef struct builder {
+    const gm_plant *plant;
+    const gm_sweep_options *options;
+    gm_map *map;
+    gm_sweep_plan *plan;
+    gm_error *error;
+    gm_nodes axis[GM_MAX_AXES]; /* of the table being added */
+    gm_nodes free_speed, free_output;
+    double first_speed; /* first node above zero of the path speed axes */
+} builder;
+
+gm_table_key gm_sweep_load_key(int path, int gear, int direction)
+{
+    gm_table_key key = gm_table_key_of(GM_LOAD_LOSS);
+    key.path = path;
+    key.gear[path] = gear;
+    key.direction[0] = direction;
+    return key;
+}
+
+gm_table_key gm_sweep_configuration_key(gm_symbol symbol, const gm_map *map,
+                                        const int *gear, int direction)
+{
+    gm_table_key key = gm_table_key_of(symbol);
+    for (int p = 0; p < map->n_paths; p++)
+        key.gear[p] = gear[p];
+    key.direction[0] = direction;
+    return key;
+}
+
+double gm_sweep_ratio(const gm_map *map, int p, int number)
+{
+    const gm_map_path *path = &map->paths[p];
+    for (int g = 0; g < path->n_gears; g++)
+        if (path->gears[g].number == number)
+            return path->gears[g].ratio;
+    return 0.0;
+}
+
+/* Smallest or largest |ratio| over the gears of a configuration; over all gears when it
+   is neutral. */
+static void ratio_range(const gm_map *map, const int *gear, double *low, double *high)
+{
+    *low = HUGE_VAL;
+    *high = 0.0;
+    int neutral = 1;
+    for (int p = 0; p < map->n_paths; p++)
+        neutral = neutral && gear[p] == GM_NEUTRAL;
+    for (int p = 0; p < map->n_paths; p++)
+        for (int g = 0; g < map->paths[p].n_gears; g++) {
+            const gm_map_gear *of = &map->paths[p].gears[g];
+            if (!neutral && of->number != gear[p])
+                continue;
+            *low = fmin(*low, fabs(of->ratio));
+            *high = fmax(*high, fabs(of->ratio));
+        }
+}
+
+static gm_status add_table(builder *b, const gm_table_key *key, int n_axes, int *index)
+{
+    int n[GM_MAX_AXES] = {1, 1, 1};
+    const double *x[GM_MAX_AXES] = {NULL, NULL, NULL};
+    for (int k = 0; k < n_axes; k++) {
+        n[k] = b->axis[k].n;
+        x[k] = b->axis[k].x;
+    }
+    return gm_map_add_table(b->map, key, n_axes, n, x, index, b->error);
+}
+
+static gm_status add_jobs(builder *b, gm_job first, int rows)
+{
+    gm_sweep_plan *plan = b->plan;
+    if (plan->n_jobs + rows > plan->jobs_size) {
+        int size = 2 * (plan->n_jobs + rows);
+        gm_job *jobs = gm_resize(plan->jobs, (size_t)size, sizeof *jobs);
+        if (!jobs)
+            return gm_fail(b->error, GM_ERR_MEMORY, "no memory for the sweep's plan");
+        plan->jobs = jobs;
+        plan->jobs_size = size;
+    }
+    for (int i = 0; i < rows; i++) {
+        first.row = i;
+        plan->jobs[plan->n_jobs++] = first;
+    }
+    return GM_OK;
+}
+
+/* --- axes ------------------------------------------------------------------------- */
+
+static int by_steps(const builder *b)
+{
+    return b->options->speed_step > 0;
+}
+
+/* Speeds of a path in a gear, also where nothing special happens (number 0). */
+static gm_status speed_axis(builder *b, int p, int number, gm_nodes *nodes)
+{
+    double max = b->map->speed_max;
+    if (by_steps(b))
+        return gm_nodes_uniform(max, b->options->speed_step, "speed", nodes, b->error);
+    gm_nodes_power(SPEED_NODES, max, SPEED_POWER, nodes);
+    double kinks[MAX_KINKS];
+    int n = number == GM_NEUTRAL
+                ? 0
+                : b->plant->is->kink_speeds(b->plant->self, p, number, MAX_KINKS, kinks);
+    for (int k = 0; k < n; k++)
+        gm_nodes_include(kinks[k], SPEED_NODES_MAX, nodes);
+    return GM_OK;
+}
+
+static gm_status torque_axis(builder *b, gm_nodes *nodes)
+{
+    double max = b->map->torque_max;
+    if (b->options->torque_step > 0) {
+        gm_status status =
+            gm_nodes_uniform(max, b->options->torque_step, "torque", nodes, b->error);
+        if (status != GM_OK)
+            return status;
+    } else
+        gm_nodes_power(TORQUE_NODES, max, TORQUE_POWER, nodes);
+    gm_nodes_mirror(nodes);
+    return GM_OK;
+}
+
+/* Output speeds of a configuration with no or all paths engaged: as fine as a path's axis
+   up to where the fastest path reaches its maximum, coarser to where the slowest does. */
+static gm_status output_axis(builder *b, const int *gear, gm_nodes *nodes)
+{
+    double low, high;
+    ratio_range(b->map, gear, &low, &high);
+    gm_status status = speed_axis(b, 0, GM_NEUTRAL, nodes);
+    if (status != GM_OK)
+        return status;
+    double end = nodes->x[nodes->n - 1] / low;
+    int neutral = gear[0] == GM_NEUTRAL;
+    gm_nodes_scale(neutral ? 1.0 / low : 1.0 / high, nodes);
+    if (!neutral && high > low * (1.0 + 1e-9))
+        gm_nodes_extend(end, OVERSPEED_NODES, nodes);
+    return GM_OK;
+}
+
+static void free_axes(builder *b)
+{
+    double low, high;
+    int neutral[GM_MAX_PATHS] = {GM_NEUTRAL, GM_NEUTRAL};
+    ratio_range(b->map, neutral, &low, &high);
+    gm_nodes_power(FREE_NODES, b->map->speed_max, FREE_POWER, &b->free_speed);
+    gm_nodes_power(FREE_OUTPUT_NODES, b->map->speed_max / low, FREE_POWER,
+                   &b->free_output);
+}
+
+/* --- tables and their jobs -------------------------------------------------------- */
+
+static gm_status plan_coupling(builder *b)
+{
+    gm_table_key key = gm_table_key_of(GM_COUPLING);
+    gm_job job = {GM_JOB_COUPLING, 1, 0, -1, 0, 2};
+    /* Two shafts may turn against each other at full speed. A friction that jumps at zero
+       rises over the first cell, which is that of P and D: P(0) holds the jump. */
+    gm_nodes_power(COUPLING_NODES, 2.0 * b->map->speed_max, SPEED_POWER, &b->axis[0]);
+    gm_nodes_include(b->first_speed, COUPLING_NODES + 1, &b->axis[0]);
+    gm_nodes_mirror(&b->axis[0]);
+    gm_status status = add_table(b, &key, 1, &job.table);
+    return status != GM_OK ? status : add_jobs(b, job, b->axis[0].n);
+}
+
+static gm_status plan_lines(builder *b, int p)
+{
+    const gm_map_path *path = &b->map->paths[p];
+    gm_status status = GM_OK;
+    for (int i = 0; i < 2 * path->n_gears && status == GM_OK; i++) {
+        gm_table_key key = gm_table_key_of(GM_LINE_JUMP);
+        gm_job job = {GM_JOB_LINE, 1, 0, -1, 0, 2};
+        key.path = p;
+        key.gear[p] = path->gears[i / 2].number;
+        key.direction[0] = i % 2;
+        b->axis[0] = b->free_output;
+        status = add_table(b, &key, 1, &job.table);
+        if (status == GM_OK)
+            status = add_jobs(b, job, b->axis[0].n);
+    }
+    return status;
+}
+
+static gm_status plan_reference(builder *b)
+{
+    gm_sweep_plan *plan = b->plan;
+    int n = plan->n_reference = b->free_output.n;
+    plan->reference_speed = gm_calloc((size_t)n, sizeof(double));
+    for (int d = 0; d < 2; d++)
+        plan->reference[d] = gm_calloc((size_t)n, sizeof(double));
+    if (!plan->reference_speed || !plan->reference[0] || !plan->reference[1])
+        return gm_fail(b->error, GM_ERR_MEMORY, "no memory for the sweep's plan");
+    memcpy(plan->reference_speed, b->free_output.x, (size_t)n * sizeof(double));
+    gm_status status = GM_OK;
+    for (int d = 0; d < 2 && status == GM_OK; d++) {
+        gm_job job = {GM_JOB_REFERENCE, 1, d, -1, 0, 1};
+        status = add_jobs(b, job, n);
+    }
+    return status;
+}
+
+static gm_status plan_parasitic(builder *b, const int *gear)
+{
+    gm_status status = output_axis(b, gear, &b->axis[0]);
+    for (int d = 0; d < 2 && status == GM_OK; d++) {
+        gm_table_key key = gm_sweep_configuration_key(GM_PARASITIC, b->map, gear, d);
+        gm_job job = {GM_JOB_PARASITIC, 1, 0, -1, 0, 1};
+        status = add_table(b, &key, 1, &job.table);
+        if (status == GM_OK)
+            status = add_jobs(b, job, b->axis[0].n);
+    }
+    return status;
+}
+
+/* One path in gear, the other in neutral: D, and P at the same speeds. */
+static gm_status plan_load(builder *b, int p, const gm_map_gear *of, int direction)
+{
+    int gear[GM_MAX_PATHS] = {GM_NEUTRAL, GM_NEUTRAL};
+    gear[p] = of->number;
+    int output_direction = of->ratio < 0 ? !direction : direction;
+    gm_table_key load = gm_sweep_load_key(p, of->number, direction);
+    gm_table_key parasitic =
+        gm_sweep_configuration_key(GM_PARASITIC, b->map, gear, output_direction);
+    gm_job job = {GM_JOB_LOAD, 2, 0, 0, 0, 0};
+    gm_status status = speed_axis(b, p, of->number, &b->axis[0]);
+    if (status == GM_OK)
+        status = torque_axis(b, &b->axis[1]);
+    if (status == GM_OK)
+        status = add_table(b, &load, 2, &job.table);
+    job.points = b->axis[1].n;
+    gm_nodes_scale(1.0 / fabs(of->ratio), &b->axis[0]);
+    if (status == GM_OK)
+        status = add_table(b, &parasitic, 1, &job.companion);
+    return status != GM_OK ? status : add_jobs(b, job, b->axis[0].n);
+}
+
+static gm_status plan_drag(builder *b, int p, int direction, int output_direction)
+{
+    gm_table_key key = gm_table_key_of(GM_DRAG);
+    key.path = p;
+    key.direction[0] = direction;
+    key.direction[1] = output_direction;
+    gm_job job = {GM_JOB_DRAG, 2, 0, 0, 0, b->free_output.n};
+    b->axis[0] = b->free_speed;
+    b->axis[1] = b->free_output;
+    gm_status status = add_table(b, &key, 2, &job.table);
+    key.symbol = GM_REACTION;
+    if (status == GM_OK)
+        status = add_table(b, &key, 2, &job.companion);
+    return status != GM_OK ? status : add_jobs(b, job, b->free_speed.n);
+}
+
+static gm_status plan_both(builder *b, const int *gear, int direction)
+{
+    double low, high;
+    ratio_range(b->map, gear, &low, &high);
+    gm_table_key key =
+        gm_sweep_configuration_key(GM_BOTH_LOADED, b->map, gear, direction);
+    gm_nodes_power(BOTH_SPEED_NODES, b->map->speed_max / high, BOTH_SPEED_POWER,
+                   &b->axis[0]);
+    gm_nodes_power(BOTH_TORQUE_NODES, b->map->torque_max, BOTH_TORQUE_POWER, &b->axis[1]);
+    gm_nodes_mirror(&b->axis[1]);
+    b->axis[2] = b->axis[1];
+    gm_job job = {GM_JOB_BOTH, 3, 0, -1, 0, b->axis[1].n * b->axis[2].n};
+    gm_status status = add_table(b, &key, 3, &job.table);
+    return status != GM_OK ? status : add_jobs(b, job, b->axis[0].n);
+}
+
+static gm_status plan_path(builder *b, int p)
+{
+    const gm_map_path *path = &b->map->paths[p];
+    gm_status status = plan_lines(b, p);
+    for (int i = 0; i < 2 * path->n_gears && status == GM_OK; i++)
+        status = plan_load(b, p, &path->gears[i / 2], i % 2);
+    for (int i = 0; i < 4 && status == GM_OK; i++)
+        status = plan_drag(b, p, i / 2, i % 2);
+    return status;
+}
+
+static gm_status plan_doubles(builder *b)
+{
+    gm_status status = GM_OK;
+    int n_0 = b->map->paths[0].n_gears, n_1 = b->map->paths[1].n_gears;
+    for (int i = 0; i < n_0 * n_1 && status == GM_OK; i++) {
+        int gear[GM_MAX_PATHS] = {b->map->paths[0].gears[i / n_1].number,
+                                  b->map->paths[1].gears[i % n_1].number};
+        status = plan_parasitic(b, gear);
+        for (int d = 0; d < 2 && status == GM_OK; d++)
+            status = plan_both(b, gear, d);
+    }
+    return status;
+}
+
+static gm_status plan_all(builder *b)
+{
+    int neutral[GM_MAX_PATHS] = {GM_NEUTRAL, GM_NEUTRAL};
+    int two = b->map->n_paths == 2;
+    gm_status status = speed_axis(b, 0, GM_NEUTRAL, &b->axis[0]);
+    if (status != GM_OK)
+        return status;
+    b->first_speed = b->axis[0].x[1];
+    free_axes(b);
+    if (two && b->plant->info.coupled)
+        status = plan_coupling(b);
+    if (status == GM_OK)
+        status = plan_reference(b);
+    if (status == GM_OK)
+        status = plan_parasitic(b, neutral);
+    for (int p = 0; p < b->map->n_paths && status == GM_OK; p++)
+        status = plan_path(b, p);
+    return status == GM_OK && two ? plan_doubles(b) : status;
+}
+
+static void view_coupling(gm_sweep_plan *plan)
+{
+    gm_table_key key = gm_table_key_of(GM_COUPLING);
+    const gm_map_table *table = gm_map_find(plan->map, &key);
+    if (!table)
+        return;
+    plan->coupling.x.n = table->n[0];
+    plan->coupling.x.x = table->x[0];
+    plan->coupling.value = table->value;
+}
+
+gm_status gm_sweep_plan_create(const gm_plant *plant, const gm_sweep_options *options,
+                               gm_map *map, gm_sweep_plan **plan, gm_error *error)
+{
+    builder *b = gm_calloc(1, sizeof *b);
+    gm_sweep_plan *made = gm_calloc(1, sizeof *made);
+    gm_status status = GM_ERR_MEMORY;
+    if (!b || !made) {
+        gm_fail(error, status, "no memory for the sweep's plan");
+        goto done;
+    }
+    made->plant = plant;
+    made->map = map;
+    b->plant = plant;
+    b->options = options;
+    b->map = map;
+    b->plan = made;
+    b->error = error;
+    status = plan_all(b);
+    if (status == GM_OK) {
+        view_coupling(made);
+        *plan = made;
+        made = NULL;
+    }
+done:
+    gm_free(b);
+    gm_sweep_plan_destroy(made);
+    return status;
+}
+
+void gm_sweep_plan_destroy(gm_sweep_plan *plan)
+{
+    if (!plan)
+        return;
+    gm_free(plan->reference_speed);
+    gm_free(plan->reference[0]);
+    gm_free(plan->reference[1]);
+    gm_free(plan->jobs);
+    gm_free(plan);
+}
