@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: BSD-2-Clause
+"""gearmap check: what it says of the example, and of descriptions that break a rule."""
+
+import math
+import re
+
+import pytest
+from conftest import EXAMPLE, ROOT, fails, result_of, succeeds
+
+TEXT = EXAMPLE.read_text()
+BAD_FILES = sorted((ROOT / "tests" / "model" / "bad").glob("*.yaml"))
+
+
+@pytest.fixture(scope="module")
+def checked():
+    return result_of("check", EXAMPLE)
+
+
+def test_finds_all_gears_of_both_paths(checked):
+    gears = {p["name"]: [g["number"] for g in p["gears"]] for p in checked["paths"]}
+    assert sorted(gears) == ["even", "odd"]
+    assert sorted(gears["odd"] + gears["even"]) == [-1, 1, 2, 3, 4, 5, 6, 7]
+
+
+def test_ratios_are_the_given_ones_and_fall_with_the_gear(checked):
+    gears = sorted((g for p in checked["paths"] for g in p["gears"]),
+                   key=lambda g: g["number"])
+    for g in gears:
+        if g["ratio_given"] is not None:
+            # the sweep's own limit between identified and given ratio
+            assert g["ratio"] == pytest.approx(g["ratio_given"], rel=1e-3)
+    forward = [g["ratio"] for g in gears if g["number"] > 0]
+    reverse = [g["ratio"] for g in gears if g["number"] < 0]
+    assert all(abs(a) > abs(b) for a, b in zip(forward, forward[1:]))
+    assert all(r * forward[0] < 0 for r in reverse)
+
+
+def test_power_flows_from_the_input_shaft_to_the_output(checked):
+    for path in checked["paths"]:
+        starts = {g["power_flow"][0] for g in path["gears"]}
+        ends = {g["power_flow"][-1] for g in path["gears"]}
+        assert len(starts) == 1 and len(ends) == 1
+        assert all(len(g["power_flow"]) == len(set(g["power_flow"])) for g in path["gears"])
+
+
+def test_inertia_at_the_input_is_reflected(checked):
+    for path in checked["paths"]:
+        for g in path["gears"]:
+            expected = path["inertia_kgm2"] + checked["inertia_output_kgm2"] / g["ratio"]**2
+            assert g["inertia_at_input_kgm2"] == pytest.approx(expected, rel=1e-12)
+
+
+def test_text_shows_every_gear_and_shaft(checked):
+    text = succeeds("check", EXAMPLE).stdout
+    for shaft in checked["shafts"]:
+        assert shaft["name"] in text
+    for path in checked["paths"]:
+        for g in path["gears"]:
+            assert " > ".join(g["power_flow"]) in text
+
+
+def point_of(gear, speed, torque, *more):
+    return result_of("check", EXAMPLE, "--gear", gear, "--speed", speed, "--torque", torque,
+                     *more)["point"]
+
+
+@pytest.mark.parametrize("gear, speed, torque", [
+    (3, 2000, 100), (3, 2000, -50), (6, 4000, 150), (1, -500, -80), (-1, 1000, 60)])
+def test_losses_of_a_point_close_the_power_balance(gear, speed, torque):
+    p = point_of(gear, speed, torque)
+    rpm = math.pi / 30
+    given = p["torque_Nm"] * p["speed_rpm"] * rpm
+    taken = p["output_torque_Nm"] * p["output_speed_rpm"] * rpm
+    # the solver stops at 1e-12 of the largest force; powers are differences of those
+    assert p["loss_W"] == pytest.approx(given - taken, rel=1e-6)
+    assert p["loss_W"] == pytest.approx(sum(p["components_W"].values()), rel=1e-9)
+    assert p["loss_W"] == pytest.approx(sum(e["loss_W"] for e in p["elements"]), rel=1e-9)
+    assert p["loss_at_input_Nm"] == pytest.approx(p["loss_W"] / abs(speed * rpm), rel=1e-9)
+    assert all(e["loss_W"] >= 0 for e in p["elements"])
+    assert 0 < p["efficiency"] < 1
+
+
+def test_reverse_turns_the_output_the_other_way():
+    assert point_of(-1, 1000, 50)["output_speed_rpm"] * \
+        point_of(1, 1000, 50)["output_speed_rpm"] < 0
+
+
+def test_a_preselected_gear_costs_more_than_a_free_shaft():
+    free = point_of(3, 3000, 0)
+    preselected = point_of(3, 3000, 0, "--preselect", "4")
+    assert preselected["loss_W"] > free["loss_W"]
+
+
+def test_cold_oil_costs_more():
+    cold = point_of(3, 2000, 50, "--oil-temperature", "20degC")
+    warm = point_of(3, 2000, 50, "--oil-temperature", "80degC")
+    assert cold["loss_W"] > warm["loss_W"]
+
+
+def test_text_of_a_point_lists_components_and_elements():
+    text = succeeds("check", EXAMPLE, "--gear", "3", "--speed", "2000", "--torque", "100").stdout
+    assert re.search(r"^gear 3 \(odd\) at 2000 rpm and 100\.0 N·m, oil ", text, re.M)
+    shares = [float(s) for s in re.findall(r"N·m +([\d.]+) %$", text, re.M)]
+    assert sum(shares) == pytest.approx(100, abs=0.5)  # each is rounded to 0.1 %
+
+
+def test_a_gear_that_does_not_exist():
+    assert fails("check", EXAMPLE, "--gear", "8", "--speed", "100", "--torque", "1") == \
+        f"{EXAMPLE}: there is no gear 8"
+
+
+def test_a_gear_that_cannot_be_preselected():
+    assert fails("check", EXAMPLE, "--gear", "3", "--speed", "100", "--torque", "1",
+                 "--preselect", "5") == \
+        f"{EXAMPLE}: gear 5 cannot be preselected while gear 3 drives"
+
+
+# Damage done to the example: (name, pattern, replacement, words the sentence must hold).
+DAMAGE = [
+    ("not_a_number", r"(width: *)[\d.]+", r"\g<1>3o0", "3o0"),
+    ("with_a_unit", r"(width: *)[\d.]+", r"\g<1>30 mm", "30 mm"),
+    ("nan", r"(width: *)[\d.]+", r"\g<1>.nan", "nan"),
+    ("infinite", r"(width: *)[\d.]+", r"\g<1>.inf", "inf"),
+    ("negative", r"(width: *)[\d.]+", r"\g<1>-12", "-12"),
+    ("unknown_key", r"width: *([\d.]+)", r"widht: \g<1>", "widht"),
+    ("wrong_teeth", r"(teeth: *)(\d+)", r"\g<1>7\g<2>", "teeth"),
+    ("not_yaml", r"\Z", "\nx: [1, 2\n", ""),
+]
+
+
+def refused(path, *words):
+    """check, sweep and reduce refuse the file with one sentence and leave nothing."""
+    before = set(path.parent.iterdir())
+    sentence = fails("check", path)
+    assert sentence.startswith(f"{path}")
+    for word in words:
+        assert word in sentence
+    for command, output in (("sweep", "out.map"), ("reduce", "out.fmu")):
+        assert fails(command, path, "-o", path.parent / output) == sentence
+    assert set(path.parent.iterdir()) == before
+    return sentence
+
+
+@pytest.mark.parametrize("name, pattern, replacement, word", DAMAGE, ids=[d[0] for d in DAMAGE])
+def test_damaged_descriptions(name, pattern, replacement, word, tmp_path):
+    damaged, n = re.subn(pattern, replacement, TEXT, count=1)
+    assert n == 1 and damaged != TEXT
+    path = tmp_path / f"{name}.yaml"
+    path.write_text(damaged)
+    sentence = refused(path, word)
+    assert re.match(rf"{re.escape(str(path))}:\d+", sentence), "no line number"
+
+
+@pytest.mark.parametrize("file", BAD_FILES, ids=[f.stem for f in BAD_FILES])
+def test_bad_descriptions_of_the_model_tests(file, tmp_path):
+    path = tmp_path / file.name
+    path.write_bytes(file.read_bytes())
+    refused(path)
+
+
+def test_a_missing_file(tmp_path):
+    sentence = refused(tmp_path / "none.yaml")
+    assert "No such file" in sentence
+
+
+def test_a_folder_in_place_of_a_file(tmp_path):
+    folder = tmp_path / "folder.yaml"
+    folder.mkdir()
+    refused(folder)
+
+
+@pytest.mark.parametrize("content", [b"", b"\0" * 100, b"\xff\xfe\x00", b"- 1\n- 2\n",
+                                     b"{" * 5000])
+def test_files_that_are_no_description(content, tmp_path):
+    path = tmp_path / "odd.yaml"
+    path.write_bytes(content)
+    refused(path)
+
+
+def test_a_truncated_description(tmp_path):
+    path = tmp_path / "half.yaml"
+    path.write_text(TEXT[:len(TEXT) // 2])
+    refused(path)

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The two parts of `gearmap check`: what the gearset is, and where one operating point
+ * loses its power. Each collects first and prints after, as text or as JSON.
+ */
+#ifndef CHECK_H
+#define CHECK_H
+
+#include "gearset_file.h"
+#include "json.h"
+#include "power_flow.h"
+
+typedef struct gm_checked_gear {
+    int path, number;
+    double ratio, ratio_given; /* input/output; NAN: not given */
+    double inertia;            /* of everything that turns, seen at the input, kg.m2 */
+    gm_power_flow flow;
+} gm_checked_gear;
+
+typedef struct gm_checked_gearset {
+    const gm_description *description;
+    double oil_temperature;                             /* K */
+    double inertia_output, inertia[GM_MAX_INPUT_PATHS]; /* J_out, J_p, kg.m2 */
+    int n_gears;
+    gm_checked_gear *gears; /* [n_gears] */
+} gm_checked_gearset;
+
+/** Identify every gear. On failure nothing is held. */
+GM_NODISCARD gm_status gm_check_gearset(const gm_gearset_file *file,
+                                        gm_checked_gearset *checked, gm_error *error);
+void gm_checked_gearset_clear(gm_checked_gearset *checked);
+void gm_checked_gearset_print(const gm_checked_gearset *checked, FILE *out);
+void gm_checked_gearset_json(const gm_checked_gearset *checked, gm_json *json);
+
+/** An operating point as asked for: gear, speed [rad/s] and torque [N.m] at the input;
+ *  preselected: gear engaged on the other path, 0: that path is in neutral and free. */
+typedef struct gm_point_request {
+    int gear, preselected;
+    double speed, torque;
+} gm_point_request;
+
+typedef struct gm_checked_point {
+    gm_point_request request;
+    const char *path, *other; /* names; other NULL: one path only */
+    double other_speed;       /* rad/s */
+    int other_sticks;         /* 1: in neutral and held by friction */
+    double output_speed, output_torque;
+    double loss;            /* W, of all elements */
+    double oil_temperature; /* K */
+    int n_elements;
+    gm_element_loss *elements; /* [n_elements], largest first */
+} gm_checked_point;
+
+/** Solve the point. GM_ERR_MODEL when there is no such gear. */
+GM_NODISCARD gm_status gm_check_point(const gm_gearset_file *file,
+                                      const gm_point_request *request,
+                                      gm_checked_point *point, gm_error *error);
+void gm_checked_point_clear(gm_checked_point *point);
+void gm_checked_point_print(const gm_checked_point *point, FILE *out);
+void gm_checked_point_json(const gm_checked_point *point, gm_json *json);
+
+#endif

@@ -1,0 +1,250 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * Where one operating point loses its power: the steady balance is solved, then read
+ * element by element.
+ */
+#include "check.h"
+
+#include "base/alloc.h"
+#include "solve/gm_steady_solver.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define RPM_PER_RAD_S 9.549296585513721 /* 60 / (2 pi) */
+#define KELVIN 273.15
+
+static int has_gear(const gm_path_part *path, int number)
+{
+    for (int g = 0; g < path->n_gears; g++)
+        if (path->gears[g].number == number)
+            return 1;
+    return 0;
+}
+
+/* Path of a gear, -1 when there is none. */
+static int path_of(const gm_description *d, int number)
+{
+    for (int p = 0; p < d->n_paths; p++)
+        if (has_gear(&d->paths[p], number))
+            return p;
+    return -1;
+}
+
+/* Gears, speeds and torques of the point; *path receives the loaded path. */
+static gm_status set_up(const gm_gearset_file *file, const gm_point_request *r,
+                        gm_steady_point *point, int *path, gm_error *error)
+{
+    const gm_description *d = file->description;
+    int p = path_of(d, r->gear), other = 1 - p;
+    if (p < 0)
+        return gm_fail(error, GM_ERR_MODEL, "%s: there is no gear %d", d->file, r->gear);
+    if (r->preselected != 0 &&
+        (d->n_paths < 2 || !has_gear(&d->paths[other], r->preselected)))
+        return gm_fail(error, GM_ERR_MODEL,
+                       "%s: gear %d cannot be preselected while gear %d drives", d->file,
+                       r->preselected, r->gear);
+    memset(point, 0, sizeof *point);
+    point->gear[p] = r->gear;
+    if (d->n_paths > 1)
+        point->gear[other] = r->preselected;
+    gm_kinematics k;
+    gm_status status = gm_gearset_kinematics(file->gearset, point->gear, &k, error);
+    if (status != GM_OK)
+        return status;
+    point->speed[0] = r->speed / k.ratio[p];
+    for (int i = 0; i < GM_MAX_FLANGES; i++)
+        point->direction[i] = point->speed[0] < 0.0 ? -1.0 : 1.0;
+    point->torque[1 + p] = r->torque;
+    *path = p;
+    return GM_OK;
+}
+
+static int larger_first(const void *a, const void *b)
+{
+    const gm_element_loss *x = a, *y = b;
+    if (x->power != y->power)
+        return x->power < y->power ? 1 : -1;
+    return strcmp(x->name, y->name);
+}
+
+/* Losses are read from a balance at the same point and the solver's unknowns. */
+static gm_status read_losses(const gm_gearset_file *file, const gm_steady_point *point,
+                             const double *x, gm_checked_point *checked, gm_error *error)
+{
+    gm_balance *balance = NULL;
+    int n = gm_gearset_element_count(file->gearset);
+    gm_element_loss *losses = gm_calloc((size_t)n, sizeof *losses);
+    if (!losses)
+        return gm_fail(error, GM_ERR_MEMORY, "out of memory");
+    gm_status status = gm_balance_create(file->gearset, &balance, error);
+    if (status == GM_OK)
+        status = gm_balance_set_point(balance, point, error);
+    if (status == GM_OK) {
+        gm_balance_losses(balance, x, losses);
+        qsort(losses, (size_t)n, sizeof *losses, larger_first);
+        checked->n_elements = n;
+        checked->elements = losses;
+        for (int i = 0; i < n; i++)
+            checked->loss += losses[i].power;
+    } else {
+        gm_free(losses);
+    }
+    gm_balance_destroy(balance);
+    return status;
+}
+
+static gm_status solve(const gm_gearset_file *file, int p, gm_steady_point *point,
+                       gm_checked_point *checked, gm_error *error)
+{
+    const gm_description *d = file->description;
+    const int other = d->n_paths > 1 ? 1 - p : p;
+    gm_steady_solver *solver = NULL;
+    gm_steady_result result;
+    gm_status status = gm_steady_solver_create(file->plant, &solver, error);
+    if (status != GM_OK)
+        return status;
+    if (other != p && point->gear[other] == 0) {
+        gm_free_path free_path = {0};
+        status = gm_steady_solve_free(solver, other, point, &free_path, &result, error);
+        checked->other_sticks = free_path.sticks;
+    } else {
+        status = gm_steady_solve(solver, point, &result, error);
+    }
+    if (status == GM_OK) {
+        const double *x = NULL;
+        (void)gm_steady_solver_work(solver, &x);
+        checked->path = d->paths[p].id.name;
+        checked->other = other != p ? d->paths[other].id.name : NULL;
+        checked->other_speed = result.speed[1 + other];
+        checked->output_speed = result.speed[0];
+        checked->output_torque = result.torque[0];
+        status = read_losses(file, point, x, checked, error);
+    }
+    gm_steady_solver_destroy(solver);
+    return status;
+}
+
+gm_status gm_check_point(const gm_gearset_file *file, const gm_point_request *request,
+                         gm_checked_point *point, gm_error *error)
+{
+    gm_checked_point checked = {.request = *request,
+                                .oil_temperature = file->oil_temperature};
+    gm_steady_point steady;
+    int path = 0;
+    gm_status status = set_up(file, request, &steady, &path, error);
+    if (status == GM_OK)
+        status = solve(file, path, &steady, &checked, error);
+    if (status == GM_OK)
+        *point = checked;
+    return status;
+}
+
+void gm_checked_point_clear(gm_checked_point *point)
+{
+    gm_free(point->elements);
+    memset(point, 0, sizeof *point);
+}
+
+static double power_of(const gm_checked_point *c, gm_loss_kind kind)
+{
+    double sum = 0.0;
+    for (int i = 0; i < c->n_elements; i++)
+        sum += c->elements[i].kind == kind ? c->elements[i].power : 0.0;
+    return sum;
+}
+
+/* Output power per input power in the direction of the flow; NAN when nothing comes out.
+ */
+static double efficiency(const gm_checked_point *c)
+{
+    double in = c->request.torque * c->request.speed;
+    double out = c->output_torque * c->output_speed;
+    double eta = in > 0.0 ? -out / in : -in / out;
+    return eta > 0.0 && eta < 1.0 ? eta : (double)NAN;
+}
+
+static void print_head(const gm_checked_point *c, FILE *out)
+{
+    const gm_point_request *r = &c->request;
+    fprintf(out, "gear %d (%s) at %.0f rpm and %.1f N·m, oil %.1f °C\n", r->gear, c->path,
+            r->speed * RPM_PER_RAD_S, r->torque, c->oil_temperature - KELVIN);
+    if (c->other && r->preselected != 0)
+        fprintf(out, "gear %d preselected (%s at %.0f rpm)\n", r->preselected, c->other,
+                c->other_speed * RPM_PER_RAD_S);
+    else if (c->other)
+        fprintf(out, "%s in neutral, %s %.0f rpm\n", c->other,
+                c->other_sticks ? "held by friction at" : "turning freely at",
+                c->other_speed * RPM_PER_RAD_S);
+    fprintf(out, "output %.1f rpm, %.2f N·m; loss %.1f W = %.4f N·m at the input",
+            c->output_speed * RPM_PER_RAD_S, -c->output_torque, c->loss,
+            c->loss / fabs(r->speed));
+    if (!isnan(efficiency(c)))
+        fprintf(out, "; efficiency %.2f %%", 100.0 * efficiency(c));
+    fputs("\n\n", out);
+}
+
+void gm_checked_point_print(const gm_checked_point *point, FILE *out)
+{
+    double speed = fabs(point->request.speed);
+    print_head(point, out);
+    fprintf(out, "%-44s %10s %12s %8s\n", "component", "loss [W]", "at input", "share");
+    for (int k = 0; k < GM_LOSS_KINDS; k++) {
+        double power = power_of(point, (gm_loss_kind)k);
+        if (power > 0.0)
+            fprintf(out, "  %-42s %10.2f %8.4f N·m %6.1f %%\n",
+                    gm_loss_kind_name((gm_loss_kind)k), power, power / speed,
+                    100.0 * power / point->loss);
+    }
+    fprintf(out, "\n%-26s %-17s %10s %12s %10s %10s\n", "element", "kind", "loss [W]",
+            "speed", "load [N]", "axial [N]");
+    for (int i = 0; i < point->n_elements; i++) {
+        const gm_element_loss *e = &point->elements[i];
+        int sliding = e->kind == GM_LOSS_MESH;
+        fprintf(out, "  %-24s %-17s %10.3f %8.1f %-3s %10.0f %10.0f\n", e->name,
+                gm_loss_kind_name(e->kind), e->power,
+                sliding ? e->speed : e->speed * RPM_PER_RAD_S, sliding ? "m/s" : "rpm",
+                e->radial, e->axial);
+    }
+}
+
+static void element_json(const gm_element_loss *e, gm_json *json)
+{
+    int sliding = e->kind == GM_LOSS_MESH;
+    gm_json_object(json, NULL);
+    gm_json_text(json, "name", e->name);
+    gm_json_text(json, "kind", gm_loss_kind_name(e->kind));
+    gm_json_number(json, "loss_W", e->power);
+    gm_json_number(json, sliding ? "speed_m_s" : "speed_rpm",
+                   sliding ? e->speed : e->speed * RPM_PER_RAD_S);
+    gm_json_number(json, "radial_load_N", e->radial);
+    gm_json_number(json, "axial_load_N", e->axial);
+    gm_json_end(json);
+}
+
+void gm_checked_point_json(const gm_checked_point *point, gm_json *json)
+{
+    const gm_point_request *r = &point->request;
+    gm_json_object(json, "point");
+    gm_json_text(json, "path", point->path);
+    gm_json_integer(json, "gear", r->gear);
+    gm_json_integer(json, "preselected", r->preselected);
+    gm_json_number(json, "speed_rpm", r->speed * RPM_PER_RAD_S);
+    gm_json_number(json, "torque_Nm", r->torque);
+    gm_json_number(json, "output_speed_rpm", point->output_speed * RPM_PER_RAD_S);
+    gm_json_number(json, "output_torque_Nm", -point->output_torque);
+    gm_json_number(json, "loss_W", point->loss);
+    gm_json_number(json, "loss_at_input_Nm", point->loss / fabs(r->speed));
+    gm_json_number(json, "efficiency", efficiency(point));
+    gm_json_object(json, "components_W");
+    for (int k = 0; k < GM_LOSS_KINDS; k++)
+        gm_json_number(json, gm_loss_kind_name((gm_loss_kind)k),
+                       power_of(point, (gm_loss_kind)k));
+    gm_json_end(json);
+    gm_json_array(json, "elements");
+    for (int i = 0; i < point->n_elements; i++)
+        element_json(&point->elements[i], json);
+    gm_json_end(json);
+    gm_json_end(json);
+}

@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * gearmap check: read a description, print what the gearset is; with an operating point,
+ * where it loses power.
+ */
+#include "commands.h"
+
+#include "check.h"
+
+#include <math.h>
+
+typedef struct arguments {
+    const char *description;
+    int gear, preselect, json;
+    double speed, torque, oil_temperature;
+} arguments;
+
+static const gm_option options[] = {
+    {.kind = GM_OPTION_OPERAND,
+     .name = "FILE",
+     .required = 1,
+     .offset = offsetof(arguments, description),
+     .help = "the description of the gearset"},
+    {.kind = GM_OPTION_INTEGER,
+     .name = "gear",
+     .value = "N",
+     .low = -9,
+     .high = 99,
+     .offset = offsetof(arguments, gear),
+     .help = "print the losses of an operating point in this gear (-1: reverse)"},
+    {.kind = GM_OPTION_QUANTITY,
+     .name = "speed",
+     .value = "SPEED",
+     .unit = "rpm",
+     .low = -1e5,
+     .high = 1e5,
+     .offset = offsetof(arguments, speed),
+     .help = "speed of the input at that point"},
+    {.kind = GM_OPTION_QUANTITY,
+     .name = "torque",
+     .value = "TORQUE",
+     .unit = "Nm",
+     .low = -1e6,
+     .high = 1e6,
+     .offset = offsetof(arguments, torque),
+     .help = "torque at the input; negative: the output drives (at positive speed)"},
+    {.kind = GM_OPTION_INTEGER,
+     .name = "preselect",
+     .value = "N",
+     .low = -9,
+     .high = 99,
+     .fallback = "0",
+     .offset = offsetof(arguments, preselect),
+     .help = "gear engaged without load on the other path; 0: that path is free"},
+    {.kind = GM_OPTION_QUANTITY,
+     .name = "oil-temperature",
+     .value = "TEMPERATURE",
+     .unit = "degC",
+     .low = -50,
+     .high = 200,
+     .offset = offsetof(arguments, oil_temperature),
+     .help = "oil temperature; default: the description's"},
+    {.kind = GM_OPTION_FLAG,
+     .name = "json",
+     .offset = offsetof(arguments, json),
+     .help = "print the result as JSON"},
+};
+
+static int wants_point(const arguments *a)
+{
+    return a->gear != GM_OPTION_UNSET || !isnan(a->speed) || !isnan(a->torque);
+}
+
+static const char *usage_problem(const arguments *a)
+{
+    if (!wants_point(a))
+        return a->preselect != 0 ? "--preselect belongs to an operating point (--gear, "
+                                   "--speed and --torque)"
+                                 : NULL;
+    if (a->gear == GM_OPTION_UNSET || isnan(a->speed) || isnan(a->torque))
+        return "an operating point needs --gear, --speed and --torque";
+    if (a->gear == 0)
+        return "an operating point needs a gear; 0 is neutral";
+    return a->speed == 0.0 ? "an operating point needs a speed other than 0" : NULL;
+}
+
+static void print_result(const arguments *a, const gm_checked_gearset *gearset,
+                         const gm_checked_point *point)
+{
+    gm_json json;
+    if (a->json) {
+        gm_json_start(&json, stdout);
+        gm_checked_gearset_json(gearset, &json);
+        if (point)
+            gm_checked_point_json(point, &json);
+        gm_json_finish(&json);
+    } else if (point) {
+        gm_checked_point_print(point, stdout);
+    } else {
+        gm_checked_gearset_print(gearset, stdout);
+    }
+}
+
+static gm_status check_open_file(const arguments *a, const gm_gearset_file *file,
+                                 gm_error *error)
+{
+    gm_checked_gearset gearset = {0};
+    gm_checked_point point = {0};
+    const gm_point_request request = {a->gear, a->preselect, a->speed, a->torque};
+    gm_status status = gm_check_gearset(file, &gearset, error);
+    if (status == GM_OK && wants_point(a))
+        status = gm_check_point(file, &request, &point, error);
+    if (status == GM_OK)
+        print_result(a, &gearset, wants_point(a) ? &point : NULL);
+    gm_checked_point_clear(&point);
+    gm_checked_gearset_clear(&gearset);
+    return status;
+}
+
+static int run(const void *given)
+{
+    const arguments *a = given;
+    gm_gearset_file file;
+    gm_error error = {0};
+    const char *problem = usage_problem(a);
+    if (problem) {
+        fprintf(stderr, "gearmap: %s\n", problem);
+        return GM_EXIT_USAGE;
+    }
+    gm_status status =
+        gm_gearset_file_open(a->description, a->oil_temperature, &file, &error);
+    if (status == GM_OK) {
+        status = check_open_file(a, &file, &error);
+        gm_gearset_file_close(&file);
+    }
+    return gm_command_end(status, &error);
+}
+
+const gm_command gm_command_check = {
+    .name = "check",
+    .summary = "validate a description, print the gearset",
+    .details =
+        "Prints shafts, ratios as the model turns, inertias and the power flow of "
+        "each gear. With --gear, --speed and --torque: the losses of that operating "
+        "point by component and by element.",
+    .options = options,
+    .n_options = sizeof options / sizeof options[0],
+    .size = sizeof(arguments),
+    .run = run,
+};

@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * One steady point of the FMU: reset; gears, start speeds of the independent shafts and
+ * torques; initialise; read. The output torque given is the detailed gearset's, so that
+ * the FMU is as good as unaccelerated and the transmitted torque is the flange's.
+ */
+#include "fmu_probe.h"
+
+#include "base/alloc.h"
+#include "plant/gm_fmu.h"
+
+#include <stdio.h>
+
+#define NAME 64
+
+typedef struct path_variables {
+    unsigned tau, gear, w_start, loss_torque;
+} path_variables;
+
+struct gm_fmu_probe {
+    gm_fmu *fmu;
+    int n_paths;
+    path_variables path[GM_MAX_INPUT_PATHS];
+    unsigned output_tau, output_w_start, output_loss_torque, loss_power;
+};
+
+static gm_status find(const gm_fmu *fmu, const char *path, const char *variable,
+                      unsigned *reference, gm_error *error)
+{
+    char name[NAME];
+    (void)snprintf(name, sizeof name, "%s%s%s", path, *path ? "." : "", variable);
+    return gm_fmu_find(fmu, name, reference, error);
+}
+
+static gm_status find_path(gm_fmu_probe *probe, int p, const char *path, gm_error *error)
+{
+    path_variables *v = &probe->path[p];
+    gm_status status = find(probe->fmu, path, "tau", &v->tau, error);
+    if (status == GM_OK)
+        status = find(probe->fmu, path, "gear", &v->gear, error);
+    if (status == GM_OK)
+        status = find(probe->fmu, path, "w_start", &v->w_start, error);
+    if (status == GM_OK)
+        status = find(probe->fmu, path, "loss_torque", &v->loss_torque, error);
+    return status;
+}
+
+static gm_status find_output(gm_fmu_probe *probe, gm_error *error)
+{
+    const gm_fmu *fmu = probe->fmu;
+    gm_status status = find(fmu, "output", "tau", &probe->output_tau, error);
+    if (status == GM_OK)
+        status = find(fmu, "output", "w_start", &probe->output_w_start, error);
+    if (status == GM_OK)
+        status = find(fmu, "output", "loss_torque", &probe->output_loss_torque, error);
+    if (status == GM_OK)
+        status = find(fmu, "", "loss_power", &probe->loss_power, error);
+    return status;
+}
+
+/* An FMU of another gearset may have more paths than the plant: that must not pass. */
+static gm_status check_paths(const gm_fmu *fmu, const char *file, const gm_plant *plant,
+                             gm_error *error)
+{
+    static const char *const tau[] = {"input.tau", "odd.tau", "even.tau"};
+    int n = 0;
+    for (int i = 0; i < 3; i++)
+        n += gm_fmu_has(fmu, tau[i]);
+    if (n != plant->info.n_paths)
+        return gm_fail(error, GM_ERR_MODEL,
+                       "%s: has %d input flanges where the gearset %s has %d", file, n,
+                       plant->info.name, plant->info.n_paths);
+    return GM_OK;
+}
+
+static gm_status find_variables(gm_fmu_probe *probe, const char *file,
+                                const gm_plant *plant, gm_error *error)
+{
+    gm_status status = check_paths(probe->fmu, file, plant, error);
+    probe->n_paths = plant->info.n_paths;
+    for (int p = 0; status == GM_OK && p < probe->n_paths; p++)
+        status = find_path(probe, p, plant->info.path[p].name, error);
+    return status == GM_OK ? find_output(probe, error) : status;
+}
+
+gm_status gm_fmu_probe_open(const char *path, const gm_plant *plant, gm_fmu_probe **probe,
+                            gm_error *error)
+{
+    gm_fmu_probe *made = gm_calloc(1, sizeof *made);
+    if (!made)
+        return gm_fail(error, GM_ERR_MEMORY, "%s: out of memory", path);
+    gm_status status = gm_fmu_open(path, &made->fmu, error);
+    if (status == GM_OK)
+        status = find_variables(made, path, plant, error);
+    if (status != GM_OK) {
+        gm_fmu_probe_close(made);
+        return status;
+    }
+    *probe = made;
+    return GM_OK;
+}
+
+void gm_fmu_probe_close(gm_fmu_probe *probe)
+{
+    if (!probe)
+        return;
+    gm_fmu_close(probe->fmu);
+    gm_free(probe);
+}
+
+static gm_status set_path(gm_fmu_probe *probe, int p, const gm_steady_point *point,
+                          gm_error *error)
+{
+    const path_variables *v = &probe->path[p];
+    const int engaged = point->gear[p] != 0;
+    gm_status status = gm_fmu_set_integer(probe->fmu, v->gear, point->gear[p], error);
+    if (status == GM_OK)
+        status = gm_fmu_set_real(probe->fmu, v->tau, engaged ? point->torque[1 + p] : 0.0,
+                                 error);
+    if (status == GM_OK && !engaged)
+        status = gm_fmu_set_real(probe->fmu, v->w_start, point->speed[1 + p], error);
+    return status;
+}
+
+static gm_status set_point(gm_fmu_probe *probe, const gm_steady_point *point,
+                           double output_torque, gm_error *error)
+{
+    gm_status status = gm_fmu_reset(probe->fmu, error);
+    if (status == GM_OK)
+        status =
+            gm_fmu_set_real(probe->fmu, probe->output_w_start, point->speed[0], error);
+    if (status == GM_OK)
+        status = gm_fmu_set_real(probe->fmu, probe->output_tau, output_torque, error);
+    for (int p = 0; status == GM_OK && p < probe->n_paths; p++)
+        status = set_path(probe, p, point, error);
+    if (status == GM_OK)
+        status = gm_fmu_initialise(probe->fmu, error);
+    return status == GM_OK ? gm_fmu_start(probe->fmu, error) : status;
+}
+
+static gm_status read_answer(gm_fmu_probe *probe, const gm_steady_point *point,
+                             gm_reduced_answer *answer, gm_error *error)
+{
+    gm_reduced_answer a = {0};
+    gm_status status =
+        gm_fmu_get_real(probe->fmu, probe->loss_power, &a.loss_power, error);
+    if (status == GM_OK)
+        status = gm_fmu_get_real(probe->fmu, probe->output_loss_torque,
+                                 &a.output_reaction, error);
+    for (int p = 0; status == GM_OK && p < probe->n_paths; p++)
+        if (point->gear[p] == 0)
+            status = gm_fmu_get_real(probe->fmu, probe->path[p].loss_torque,
+                                     &a.path_drag[p], error);
+    if (status == GM_OK)
+        *answer = a;
+    return status;
+}
+
+static gm_status probe_at(void *self, const gm_steady_point *point, double output_torque,
+                          gm_reduced_answer *answer, gm_error *error)
+{
+    gm_fmu_probe *probe = self;
+    gm_status status = set_point(probe, point, output_torque, error);
+    return status == GM_OK ? read_answer(probe, point, answer, error) : status;
+}
+
+gm_reduced_probe gm_fmu_probe_interface(gm_fmu_probe *probe)
+{
+    return (gm_reduced_probe){.at = probe_at, .self = probe};
+}

@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * JSON by RFC 8259; see json.h.
+ */
+#include "json.h"
+
+#include <assert.h>
+#include <math.h>
+#include <string.h>
+
+/* Length of the UTF-8 character at s (RFC 3629), 0 when it is none. */
+static int utf8_length(const unsigned char *s)
+{
+    static const unsigned char low[] = {0xC2, 0xE0, 0xF0}, high[] = {0xDF, 0xEF, 0xF4};
+    if (s[0] < 0x80)
+        return 1;
+    for (int extra = 1; extra <= 3; extra++) {
+        if (s[0] < low[extra - 1] || s[0] > high[extra - 1])
+            continue;
+        for (int i = 1; i <= extra; i++)
+            if ((s[i] & 0xC0u) != 0x80u)
+                return 0;
+        bool overlong = (s[0] == 0xE0 && s[1] < 0xA0) || (s[0] == 0xF0 && s[1] < 0x90);
+        bool surrogate = s[0] == 0xED && s[1] > 0x9F;
+        bool too_large = s[0] == 0xF4 && s[1] > 0x8F;
+        return overlong || surrogate || too_large ? 0 : extra + 1;
+    }
+    return 0;
+}
+
+static void put_string(FILE *out, const char *text)
+{
+    const unsigned char *s = (const unsigned char *)text;
+    fputc('"', out);
+    while (*s != '\0') {
+        int n = utf8_length(s);
+        if (*s == '"' || *s == '\\')
+            fprintf(out, "\\%c", *s);
+        else if (*s < 0x20)
+            fprintf(out, "\\u%04x", *s);
+        else if (n == 0)
+            fputs("\\ufffd", out);
+        else
+            fwrite(s, 1, (size_t)n, out);
+        s += n > 0 ? n : 1;
+    }
+    fputc('"', out);
+}
+
+static void next_line(gm_json *json)
+{
+    fprintf(json->out, "\n%*s", 2 * json->depth, "");
+}
+
+static void begin_member(gm_json *json, const char *key)
+{
+    bool *filled = &json->filled[json->depth - 1];
+    if (*filled)
+        fputc(',', json->out);
+    *filled = true;
+    next_line(json);
+    if (key) {
+        put_string(json->out, key);
+        fputs(": ", json->out);
+    }
+}
+
+static void open_level(gm_json *json, char open, char close)
+{
+    assert(json->depth < GM_JSON_DEPTH);
+    fputc(open, json->out);
+    json->close[json->depth] = close;
+    json->filled[json->depth] = false;
+    json->depth++;
+}
+
+void gm_json_start(gm_json *json, FILE *out)
+{
+    memset(json, 0, sizeof *json);
+    json->out = out;
+    open_level(json, '{', '}');
+}
+
+void gm_json_end(gm_json *json)
+{
+    assert(json->depth > 0);
+    json->depth--;
+    if (json->filled[json->depth])
+        next_line(json);
+    fputc(json->close[json->depth], json->out);
+}
+
+void gm_json_finish(gm_json *json)
+{
+    assert(json->depth == 1);
+    gm_json_end(json);
+    fputc('\n', json->out);
+}
+
+void gm_json_object(gm_json *json, const char *key)
+{
+    begin_member(json, key);
+    open_level(json, '{', '}');
+}
+
+void gm_json_array(gm_json *json, const char *key)
+{
+    begin_member(json, key);
+    open_level(json, '[', ']');
+}
+
+void gm_json_text(gm_json *json, const char *key, const char *text)
+{
+    begin_member(json, key);
+    if (text)
+        put_string(json->out, text);
+    else
+        fputs("null", json->out);
+}
+
+void gm_json_number(gm_json *json, const char *key, double value)
+{
+    begin_member(json, key);
+    if (isfinite(value))
+        fprintf(json->out, "%.17g", value);
+    else
+        fputs("null", json->out);
+}
+
+void gm_json_integer(gm_json *json, const char *key, long long value)
+{
+    begin_member(json, key);
+    fprintf(json->out, "%lld", value);
+}
+
+void gm_json_bool(gm_json *json, const char *key, bool value)
+{
+    begin_member(json, key);
+    fputs(value ? "true" : "false", json->out);
+}

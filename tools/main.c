@@ -1,0 +1,129 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The `gearmap` command: finds the command, reads its arguments, runs it.
+ */
+#include "commands.h"
+
+#include "base/text.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const gm_command *const commands[] = {
+    &gm_command_check,  &gm_command_sweep,  &gm_command_bake,
+    &gm_command_reduce, &gm_command_verify,
+};
+enum { N_COMMANDS = sizeof commands / sizeof commands[0] };
+
+static void print_overview(FILE *out)
+{
+    fputs("gearmap " GM_VERSION
+          ": a detailed gearset model in, a small and fast component "
+          "out\n\nusage: gearmap COMMAND ...\n\n",
+          out);
+    for (int i = 0; i < N_COMMANDS; i++)
+        fprintf(out, "  %-10s%s\n", commands[i]->name, commands[i]->summary);
+    fputs(
+        "  help      print the help of a command (gearmap help COMMAND)\n\n"
+        "Results go to the standard output (--json for machines), words to the standard "
+        "error.\nExit code: 0 done, 1 failed, 2 wrong usage.\n",
+        out);
+}
+
+static int usage_error(const char *sentence)
+{
+    fprintf(stderr, "gearmap: %s\n", sentence);
+    return GM_EXIT_USAGE;
+}
+
+int gm_command_end(gm_status status, const gm_error *error)
+{
+    if (status == GM_OK)
+        return GM_EXIT_DONE;
+    const char *sentence = error->message[0] ? error->message : gm_status_text(status);
+    fprintf(stderr, "gearmap: %s\n", sentence);
+    return GM_EXIT_FAILED;
+}
+
+static const gm_command *find_command(const char *name)
+{
+    for (int i = 0; i < N_COMMANDS; i++)
+        if (strcmp(commands[i]->name, name) == 0)
+            return commands[i];
+    const char *names[N_COMMANDS];
+    for (int i = 0; i < N_COMMANDS; i++)
+        names[i] = commands[i]->name;
+    int near = gm_text_nearest(name, names, N_COMMANDS);
+    fprintf(stderr, "gearmap: there is no command '%s'", name);
+    if (near >= 0)
+        fprintf(stderr, ", did you mean %s?\n", names[near]);
+    else
+        fputs(" (see gearmap --help)\n", stderr);
+    return NULL;
+}
+
+static int run_command(const char *name, int argc, char **argv)
+{
+    union {
+        char bytes[GM_ARGUMENTS_SIZE];
+        double number;
+        void *pointer;
+    } arguments;
+    gm_error error = {0};
+    const gm_command *command = find_command(name);
+    if (!command)
+        return GM_EXIT_USAGE;
+    switch (gm_options_parse(command, argc, argv, &arguments, &error)) {
+    case GM_PARSE_HELP:
+        gm_options_help(command, stdout);
+        return GM_EXIT_DONE;
+    case GM_PARSE_WRONG:
+        return usage_error(error.message);
+    case GM_PARSE_RUN:
+        break;
+    }
+    return command->run(&arguments);
+}
+
+static int help(int argc, char **argv)
+{
+    if (argc == 0) {
+        print_overview(stdout);
+        return GM_EXIT_DONE;
+    }
+    const gm_command *command = find_command(argv[0]);
+    if (!command)
+        return GM_EXIT_USAGE;
+    gm_options_help(command, stdout);
+    return GM_EXIT_DONE;
+}
+
+static int dispatch(int argc, char **argv)
+{
+    if (argc < 2) {
+        print_overview(stderr);
+        return GM_EXIT_USAGE;
+    }
+    const char *word = argv[1];
+    if (strcmp(word, "--version") == 0) {
+        puts("gearmap " GM_VERSION);
+        return GM_EXIT_DONE;
+    }
+    if (strcmp(word, "help") == 0 || strcmp(word, "--help") == 0 ||
+        strcmp(word, "-h") == 0)
+        return help(argc - 2, argv + 2);
+    if (word[0] == '-')
+        return usage_error("the command comes first (see gearmap --help)");
+    return run_command(word, argc - 2, argv + 2);
+}
+
+/* A full disk or a closed pipe behind the standard output is a failure too. */
+int main(int argc, char **argv)
+{
+    int code = dispatch(argc, argv);
+    if ((fflush(stdout) != 0 || ferror(stdout)) && code == GM_EXIT_DONE) {
+        fputs("gearmap: the standard output could not be written\n", stderr);
+        code = GM_EXIT_FAILED;
+    }
+    return code;
+}

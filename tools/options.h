@@ -1,0 +1,69 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The command line. Each command has one table of options; reading the arguments and
+ * printing the help both come from it, so that they cannot disagree. Quantities are read
+ * in the unit that the table names (or in another unit of the same kind when it is
+ * spelled out) and stored in SI.
+ */
+#ifndef OPTIONS_H
+#define OPTIONS_H
+
+#include "base/gm_status.h"
+
+#include <stddef.h>
+#include <stdio.h>
+
+#define GM_OPTION_UNSET (-2147483647 - 1) /* an integer option that was not given */
+
+typedef enum gm_option_kind {
+    GM_OPTION_FLAG,     /* int: 1 when given */
+    GM_OPTION_TEXT,     /* const char *: points into argv; NULL when not given */
+    GM_OPTION_INTEGER,  /* int */
+    GM_OPTION_QUANTITY, /* double, SI; NAN when not given */
+    GM_OPTION_OPERAND   /* const char *: an argument without a name, in table order */
+} gm_option_kind;
+
+typedef struct gm_option {
+    gm_option_kind kind;
+    const char *name; /* long name without dashes; of an operand what the help calls it */
+    char letter;      /* short name, 0: none */
+    const char *value; /* what the help calls the value, NULL for flags and operands */
+    const char *unit;  /* of a quantity: a name from the table in options.c, else NULL */
+    double low, high;  /* allowed range, in that unit */
+    int required;
+    const char *fallback; /* value when not given, as it would be written; or NULL */
+    size_t offset;        /* of the field in the command's arguments */
+    const char *help;
+} gm_option;
+
+typedef struct gm_command {
+    const char *name;
+    const char *summary; /* half a line */
+    const char *details; /* a paragraph or NULL */
+    const gm_option *options;
+    int n_options;
+    size_t size;                       /* of its arguments, at most GM_ARGUMENTS_SIZE */
+    int (*run)(const void *arguments); /* returns the exit code */
+} gm_command;
+
+#define GM_ARGUMENTS_SIZE 256
+
+typedef enum gm_parse_outcome {
+    GM_PARSE_RUN,
+    GM_PARSE_HELP,
+    GM_PARSE_WRONG
+} gm_parse_outcome;
+
+/** Read argv[argc] (without program and command name) into *arguments, of
+ *  command->size bytes. GM_PARSE_WRONG leaves the sentence in *error. */
+gm_parse_outcome gm_options_parse(const gm_command *command, int argc, char **argv,
+                                  void *arguments, gm_error *error);
+
+/** Print the command's help. */
+void gm_options_help(const gm_command *command, FILE *out);
+
+/** Print text wrapped to 80 columns, every line after the first indented; column is where
+ *  the first line starts. */
+void gm_print_wrapped(FILE *out, const char *text, int indent, int column);
+
+#endif

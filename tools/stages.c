@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+#include "stages.h"
+
+#include "files.h"
+#include "fmu_probe.h"
+#include "options.h"
+#include "progress.h"
+
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+double gm_stage_clock(void)
+{
+    struct timespec now;
+    (void)clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static double or_zero(double value)
+{
+    return isnan(value) ? 0.0 : value;
+}
+
+static gm_status interrupted(const char *path, gm_error *error)
+{
+    if (!path)
+        return gm_fail(
+            error, GM_ERR_INTERRUPTED,
+            "interrupted; nothing is kept (with --map FILE the finished points "
+            "would be)");
+    return gm_fail(
+        error, GM_ERR_INTERRUPTED,
+        "interrupted; %s.part keeps the finished points, the same command resumes", path);
+}
+
+gm_status gm_stage_sweep(const gm_gearset_file *file, const gm_sweep_settings *settings,
+                         const char *path, gm_sweep_stage *stage, gm_error *error)
+{
+    const gm_sweep_options options = {
+        .speed_step = or_zero(settings->speed_step),
+        .torque_step = or_zero(settings->torque_step),
+        .speed_max = or_zero(settings->speed_max),
+        .torque_max = or_zero(settings->torque_max),
+        .threads = settings->threads == GM_OPTION_UNSET ? 0 : settings->threads,
+    };
+    gm_progress progress;
+    memset(stage, 0, sizeof *stage);
+    gm_progress_begin(&progress);
+    gm_status status = gm_sweep_run(file->plant, &options, path, gm_progress_report,
+                                    &progress, &stage->map, &stage->summary, error);
+    gm_progress_end(&progress);
+    stage->path = path;
+    stage->size = path ? gm_file_size(path) : 0;
+    return status == GM_ERR_INTERRUPTED ? interrupted(path, error) : status;
+}
+
+void gm_stage_sweep_clear(gm_sweep_stage *stage)
+{
+    gm_map_destroy(stage->map);
+    memset(stage, 0, sizeof *stage);
+}
+
+gm_status gm_stage_bake(const gm_map *map, const char *compiler, const char *path,
+                        gm_bake_stage *stage, gm_error *error)
+{
+    char share[GM_PATH_SIZE];
+    double start = gm_stage_clock();
+    memset(stage, 0, sizeof *stage);
+    gm_status status = gm_file_find_share(share, error);
+    if (status != GM_OK)
+        return status;
+    const gm_bake_options options = {.share = share, .compiler = compiler};
+    status = gm_bake_fmu2(map, &options, path, &stage->summary, error);
+    stage->elapsed = gm_stage_clock() - start;
+    return status;
+}
+
+gm_status gm_stage_verify(const gm_plant *plant, const char *fmu, int points, int seed,
+                          gm_verify_stage *stage, gm_error *error)
+{
+    gm_fmu_probe *probe = NULL;
+    double start = gm_stage_clock();
+    memset(stage, 0, sizeof *stage);
+    gm_status status = gm_fmu_probe_open(fmu, plant, &probe, error);
+    if (status != GM_OK)
+        return status;
+    const gm_reduced_probe interface = gm_fmu_probe_interface(probe);
+    status = gm_verify_steady(plant, &interface, points, (uint64_t)seed, &stage->result,
+                              error);
+    gm_fmu_probe_close(probe);
+    stage->elapsed = gm_stage_clock() - start;
+    return status;
+}
+
+void gm_stage_verify_clear(gm_verify_stage *stage)
+{
+    gm_verify_result_clear(&stage->result);
+    memset(stage, 0, sizeof *stage);
+}

@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The stages of a reduction, as several commands run them: sweep, bake, verify. Each
+ * tells what it did in a small result that prints as text and as JSON.
+ */
+#ifndef STAGES_H
+#define STAGES_H
+
+#include "bake/gm_bake.h"
+#include "gearset_file.h"
+#include "json.h"
+#include "sweep/gm_sweep.h"
+#include "sweep/gm_verify.h"
+
+/** Options of a sweep as given; NAN or GM_OPTION_UNSET: not given. */
+typedef struct gm_sweep_settings {
+    double speed_step, torque_step; /* rad/s, N.m */
+    double speed_max, torque_max;   /* rad/s, N.m */
+    double oil_temperature;         /* K */
+    int threads;
+} gm_sweep_settings;
+
+typedef struct gm_sweep_stage {
+    gm_map *map; /* owned */
+    gm_sweep_summary summary;
+    const char *path; /* NULL: in memory */
+    long size;
+} gm_sweep_stage;
+
+typedef struct gm_bake_stage {
+    gm_bake_summary summary;
+    double elapsed; /* s */
+} gm_bake_stage;
+
+typedef struct gm_verify_stage {
+    gm_verify_result result; /* owned */
+    double elapsed;          /* s */
+} gm_verify_stage;
+
+/** Sweep with a progress bar; path NULL: the map stays in memory. When a signal stopped
+ *  it, GM_ERR_INTERRUPTED with a sentence that says what is kept. */
+GM_NODISCARD gm_status gm_stage_sweep(const gm_gearset_file *file,
+                                      const gm_sweep_settings *settings, const char *path,
+                                      gm_sweep_stage *stage, gm_error *error);
+void gm_stage_sweep_clear(gm_sweep_stage *stage);
+
+/** Bake map into path; compiler NULL: the one that is found. */
+GM_NODISCARD gm_status gm_stage_bake(const gm_map *map, const char *compiler,
+                                     const char *path, gm_bake_stage *stage,
+                                     gm_error *error);
+
+/** Compare the FMU file with the plant. */
+GM_NODISCARD gm_status gm_stage_verify(const gm_plant *plant, const char *fmu, int points,
+                                       int seed, gm_verify_stage *stage, gm_error *error);
+void gm_stage_verify_clear(gm_verify_stage *stage);
+
+/** Members of the stage's JSON object. */
+void gm_sweep_stage_json(const gm_sweep_stage *stage, gm_json *json);
+void gm_bake_stage_json(const gm_bake_stage *stage, const char *fmu, gm_json *json);
+void gm_verify_stage_json(const gm_verify_stage *stage, gm_json *json);
+
+/** Lines for people. */
+void gm_sweep_stage_print(const gm_sweep_stage *stage, FILE *out);
+void gm_bake_stage_print(const gm_bake_stage *stage, const char *fmu, FILE *out);
+void gm_verify_stage_print(const gm_verify_stage *stage, FILE *out);
+/** The table of groups alone, without the single gears. */
+void gm_verify_stage_print_groups(const gm_verify_stage *stage, FILE *out);
+
+/** Seconds of a steady clock. */
+double gm_stage_clock(void);
+
+/* The options of a sweep, for the tables of the commands that have a field
+ * `gm_sweep_settings sweep` in their arguments. */
+#define GM_SWEEP_OPTION(type, field)                                                     \
+    (offsetof(type, sweep) + offsetof(gm_sweep_settings, field))
+#define GM_SWEEP_OPTIONS(type)                                                           \
+    {.kind = GM_OPTION_QUANTITY,                                                         \
+     .name = "speed-step",                                                               \
+     .value = "SPEED",                                                                   \
+     .unit = "rpm",                                                                      \
+     .low = 1,                                                                           \
+     .high = 1e5,                                                                        \
+     .offset = GM_SWEEP_OPTION(type, speed_step),                                        \
+     .help = "uniform speed axis with this step; default: an axis that is dense at low " \
+             "speed"},                                                                   \
+        {.kind = GM_OPTION_QUANTITY,                                                     \
+         .name = "torque-step",                                                          \
+         .value = "TORQUE",                                                              \
+         .unit = "Nm",                                                                   \
+         .low = 0.1,                                                                     \
+         .high = 1e5,                                                                    \
+         .offset = GM_SWEEP_OPTION(type, torque_step),                                   \
+         .help =                                                                         \
+             "uniform torque axis with this step; default: an axis that is dense at "    \
+             "small torque"},                                                            \
+        {.kind = GM_OPTION_QUANTITY,                                                     \
+         .name = "speed-max",                                                            \
+         .value = "SPEED",                                                               \
+         .unit = "rpm",                                                                  \
+         .low = 10,                                                                      \
+         .high = 1e5,                                                                    \
+         .offset = GM_SWEEP_OPTION(type, speed_max),                                     \
+         .help = "largest speed at the input; default: the description's"},              \
+        {.kind = GM_OPTION_QUANTITY,                                                     \
+         .name = "torque-max",                                                           \
+         .value = "TORQUE",                                                              \
+         .unit = "Nm",                                                                   \
+         .low = 1,                                                                       \
+         .high = 1e6,                                                                    \
+         .offset = GM_SWEEP_OPTION(type, torque_max),                                    \
+         .help = "largest torque at the input; default: the description's"},             \
+        {.kind = GM_OPTION_INTEGER,                                                      \
+         .name = "threads",                                                              \
+         .value = "N",                                                                   \
+         .low = 1,                                                                       \
+         .high = 1024,                                                                   \
+         .offset = GM_SWEEP_OPTION(type, threads),                                       \
+         .help = "threads to compute with; default: one per core"},                      \
+    {                                                                                    \
+        .kind = GM_OPTION_QUANTITY, .name = "oil-temperature", .value = "TEMPERATURE",   \
+        .unit = "degC", .low = -50, .high = 200,                                         \
+        .offset = GM_SWEEP_OPTION(type, oil_temperature),                                \
+        .help = "oil temperature; default: the description's"                            \
+    }
+
+#endif
