@@ -37,8 +37,8 @@ typedef struct gm_segment {
 
 typedef struct gm_shaft {
     gm_label id;
-    double y, z;           /* m */
-    double inertia, mass;  /* of the shaft without its gears; NAN: from the segments */
+    double y, z;          /* m */
+    double inertia, mass; /* of the shaft without its gears; NAN: from the segments */
     gm_segment *segments;
     int n_segments;
 } gm_shaft;
@@ -67,6 +67,7 @@ typedef struct gm_bearing_data {
     double C0;                      /* static load rating [N] */
     double Y;                       /* tapered: axial factor */
     double f0, f1;                  /* Palmgren; NAN: default of the type */
+    /* NAN where not given and not known from the designation */
 } gm_bearing_data;
 
 /** A gear wheel; an idling one turns on its shaft on a bearing of its own. */
@@ -74,19 +75,20 @@ typedef struct gm_wheel {
     gm_label id;
     int shaft;
     int teeth;
-    double normal_module;   /* m */
-    double helix;           /* rad, > 0 right-handed */
-    double pressure_angle;  /* normal, rad */
-    double profile_shift;   /* x */
-    double width;           /* m */
-    double position;        /* axial, middle of the face, m */
-    double roughness;       /* Ra, m */
-    int internal;           /* 1: internal teeth (ring) */
-    int idles;              /* 1: turns on its shaft until a synchroniser locks it */
-    double inertia, mass;   /* NAN: disc from bore to pitch diameter */
-    double bore;            /* NAN: the shaft's diameter at the position, m */
-    gm_bearing_data bearing;/* of an idling gear */
-    int churning;           /* 1: computed when it dips into the oil */
+    double normal_module;    /* m */
+    double helix;            /* rad, > 0 right-handed */
+    double pressure_angle;   /* normal, rad */
+    double profile_shift;    /* x */
+    double width;            /* m */
+    double position;         /* axial, middle of the face, m */
+    double roughness;        /* Ra, m */
+    int internal;            /* 1: internal teeth (ring) */
+    int idles;               /* 1: turns on its shaft until a synchroniser locks it */
+    double inertia, mass;    /* NAN: disc from bore to pitch diameter */
+    double bore;             /* of that disc; if not given: the shaft's diameter at the
+                                position, of an idling gear its bearing's D [m] */
+    gm_bearing_data bearing; /* of an idling gear */
+    int churning;            /* 1: computed when it dips into the oil */
 } gm_wheel;
 
 typedef enum gm_mesh_loss_model {
@@ -109,7 +111,8 @@ typedef struct gm_bearing {
     double position;
     int locating; /* takes axial load */
     gm_bearing_data data;
-    double radial_stiffness, axial_stiffness; /* N/m; matter only where statics cannot tell */
+    double radial_stiffness,
+        axial_stiffness; /* N/m; matter only where statics cannot tell */
 } gm_bearing;
 
 typedef enum gm_seal_model {
@@ -139,15 +142,15 @@ typedef struct gm_synchroniser {
     gm_label id;
     int shaft;
     int n_wheels;
-    int *wheels;         /* [n_wheels] idling gears on that shaft */
-    double cone_torque;  /* capacity at the cone, N.m */
+    int *wheels;        /* [n_wheels] idling gears on that shaft */
+    double cone_torque; /* capacity at the cone, N.m */
     double cone_radius, cone_width, cone_clearance; /* open cone drag, m */
 } gm_synchroniser;
 
 typedef struct gm_path_gear {
     int number;
-    int wheel;             /* the idling gear that is locked to its shaft */
-    double ratio;          /* given overall ratio input/output, signed; NAN: not given */
+    int wheel;    /* the idling gear that is locked to its shaft */
+    double ratio; /* given overall ratio input/output, signed; NAN: not given */
     int line;
 } gm_path_gear;
 
@@ -162,23 +165,25 @@ typedef struct gm_oil_part {
     char name[GM_NAME_SIZE];
     double viscosity_40, viscosity_100; /* kinematic, m2/s */
     double density_15;                  /* kg/m3 */
-    double thermal_expansion;           /* alpha of rho = rho15 (1 - alpha (T - 15)), 1/K */
-    double temperature;                 /* K */
-    double mesh_lubricant_factor;       /* X_L of ISO/TR 14179-2 */
-    double bearing_mu_ehl;              /* SKF sliding friction coefficient, full film */
-    double level;                       /* z of the surface at rest, m; NAN: no bath */
-    double volume;                      /* m3 */
+    double thermal_expansion;     /* alpha of rho = rho15 (1 - alpha (T - 15)), 1/K */
+    double temperature;           /* K */
+    double mesh_lubricant_factor; /* X_L of ISO/TR 14179-2 */
+    double bearing_mu_ehl;        /* SKF sliding friction coefficient, full film */
+    double level;                 /* z of the surface at rest, m; NAN: no bath */
+    double volume;                /* m3 */
 } gm_oil_part;
 
 typedef struct gm_description {
-    char *file;               /* as given */
-    char sha256[65];          /* of the file's bytes */
+    char *file;      /* as given */
+    char sha256[65]; /* of the file's bytes */
+    int format;      /* version of the file format */
     char name[GM_NAME_SIZE];
     char *title;
-    double speed_max;         /* input, rad/s */
-    double torque_max;        /* input, N.m */
+    double speed_max;  /* input, rad/s */
+    double torque_max; /* input, N.m */
     gm_oil_part oil;
-    int n_shafts, n_wheels, n_meshes, n_bearings, n_seals, n_gaps, n_synchronisers, n_paths;
+    int n_shafts, n_wheels, n_meshes, n_bearings, n_seals, n_gaps, n_synchronisers,
+        n_paths;
     gm_shaft *shafts;
     gm_wheel *wheels;
     gm_mesh *meshes;
@@ -187,7 +192,7 @@ typedef struct gm_description {
     gm_gap *gaps;
     gm_synchroniser *synchronisers;
     gm_path_part paths[GM_MAX_INPUT_PATHS]; /* "odd" before "even" */
-    int output; /* shaft */
+    int output;                             /* shaft */
 } gm_description;
 
 /** Read and check a description file.
@@ -198,6 +203,10 @@ typedef struct gm_description {
 GM_NODISCARD gm_status gm_description_read(const char *path, gm_description **description,
                                            gm_error *error);
 void gm_description_destroy(gm_description *description);
+
+/** Reference of the file format, derived from the schema: calls write with successive
+ *  pieces of Markdown text. */
+void gm_description_help(void (*write)(void *context, const char *text), void *context);
 
 #ifdef __cplusplus
 }

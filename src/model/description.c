@@ -1,0 +1,250 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * Reading a description: bytes, tree, fields, order, checks; and its life.
+ */
+#include "base/alloc.h"
+#include "base/sha256.h"
+#include "model/bearing.h"
+#include "model/check.h"
+#include "model/description_fields.h"
+#include "model/description_yaml.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define MAX_BYTES ((size_t)4 * 1024 * 1024) /* the example has 12 kB */
+#define SHOWN_PATH ((size_t)200)
+
+static gm_status fail_va(const char *file, int line, const char *element,
+                         gm_status status, gm_error *error, const char *format,
+                         va_list args)
+{
+    char sentence[GM_ERROR_MESSAGE_SIZE];
+    size_t length = strlen(file);
+    const char *shown = length > SHOWN_PATH ? file + length - SHOWN_PATH : file;
+    (void)vsnprintf(sentence, sizeof sentence, format, args);
+    return gm_fail(error, status, "%s%s:%d: %s%s%s", shown == file ? "" : "...", shown,
+                   line, element, element[0] ? ": " : "", sentence);
+}
+
+gm_status gm_description_fail(const char *file, int line, const char *element,
+                              gm_status status, gm_error *error, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    (void)fail_va(file, line, element, status, error, format, args);
+    va_end(args);
+    return status;
+}
+
+gm_status gm_part_fail(const gm_description *d, const char *word, const gm_label *part,
+                       gm_error *error, const char *format, ...)
+{
+    char element[2 * GM_NAME_SIZE];
+    va_list args;
+    (void)snprintf(element, sizeof element, "%s '%s'", word, part->name);
+    va_start(args, format);
+    (void)fail_va(d->file, part->line, element, GM_ERR_MODEL, error, format, args);
+    va_end(args);
+    return GM_ERR_MODEL;
+}
+
+/* Bytes of the UTF-8 character at s, 0 if it is none or a control character. */
+static size_t character_length(const unsigned char *s, size_t left)
+{
+    if (*s < 0x80)
+        return *s >= 0x20 ? *s != 0x7f : *s == '\t' || *s == '\n' || *s == '\r';
+    size_t n = *s >= 0xc2 && *s < 0xe0   ? 2
+               : *s >= 0xe0 && *s < 0xf0 ? 3
+               : *s >= 0xf0 && *s < 0xf5 ? 4
+                                         : 0;
+    if (n == 0 || n > left)
+        return 0;
+    for (size_t i = 1; i < n; i++)
+        if ((s[i] & 0xc0) != 0x80)
+            return 0;
+    return n;
+}
+
+static gm_status check_text(const char *path, const char *bytes, size_t size,
+                            gm_error *error)
+{
+    int line = 1;
+    for (size_t i = 0; i < size;) {
+        size_t n = character_length((const unsigned char *)bytes + i, size - i);
+        if (n == 0)
+            return gm_description_fail(path, line, "", GM_ERR_FORMAT, error,
+                                       "not a text file; found the byte 0x%02x, expected "
+                                       "YAML in UTF-8",
+                                       (unsigned char)bytes[i]);
+        line += bytes[i] == '\n';
+        i += n;
+    }
+    return GM_OK;
+}
+
+static gm_status read_stream(const char *path, FILE *file, char *bytes, size_t *size,
+                             gm_error *error)
+{
+    *size = fread(bytes, 1, MAX_BYTES + 1, file);
+    if (ferror(file))
+        return gm_fail(error, GM_ERR_IO, "%s: cannot be read: %s", path, strerror(errno));
+    if (*size > MAX_BYTES)
+        return gm_fail(error, GM_ERR_FORMAT,
+                       "%s: too large; a description has at most %zu bytes", path,
+                       MAX_BYTES);
+    bytes[*size] = '\0';
+    return check_text(path, bytes, *size, error);
+}
+
+/* The whole file in memory; *bytes is the caller's. */
+static gm_status read_bytes(const char *path, char **bytes, size_t *size, gm_error *error)
+{
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return gm_fail(error, GM_ERR_IO, "%s: cannot be opened: %s", path,
+                       strerror(errno));
+    char *buffer = gm_calloc(MAX_BYTES + 2, 1);
+    gm_status status = buffer ? read_stream(path, file, buffer, size, error)
+                              : gm_fail(error, GM_ERR_MEMORY, "out of memory");
+    (void)fclose(file);
+    if (status != GM_OK) {
+        gm_free(buffer);
+        return status;
+    }
+    *bytes = buffer;
+    return GM_OK;
+}
+
+static gm_status hash_bytes(const char *bytes, size_t size, char text[GM_SHA256_TEXT],
+                            gm_error *error)
+{
+    gm_sha256 *sum = gm_sha256_create();
+    if (!sum)
+        return gm_fail(error, GM_ERR_MEMORY, "out of memory");
+    gm_sha256_bytes(sum, bytes, size);
+    gm_sha256_finish(sum, text);
+    gm_sha256_destroy(sum);
+    return GM_OK;
+}
+
+static int by_number(const void *a, const void *b)
+{
+    const gm_path_gear *x = a, *y = b;
+    return (x->number > y->number) - (x->number < y->number);
+}
+
+/* Order that does not depend on the file: odd before even, gears by number. */
+static void arrange(gm_description *d)
+{
+    for (int p = 0; p < d->n_paths; p++)
+        qsort(d->paths[p].gears, (size_t)d->paths[p].n_gears, sizeof *d->paths[p].gears,
+              by_number);
+    if (d->n_paths == 2 && strcmp(d->paths[0].id.name, "even") == 0) {
+        gm_path_part even = d->paths[0];
+        d->paths[0] = d->paths[1];
+        d->paths[1] = even;
+    }
+}
+
+static gm_status complete_bearing(const gm_description *d, const char *word,
+                                  const gm_label *id, gm_bearing_data *data,
+                                  gm_error *error)
+{
+    gm_error why = {GM_OK, ""};
+    if (data->designation[0] == '\0')
+        return GM_OK;
+    if (!isnan(data->d) || !isnan(data->D) || !isnan(data->B) || !isnan(data->C0))
+        return gm_part_fail(d, word, id, error,
+                            "a bearing has either a designation or dimensions; found "
+                            "designation '%s' and dimensions",
+                            data->designation);
+    if (gm_bearing_data_complete(data, &why) != GM_OK)
+        return gm_part_fail(d, word, id, error, "%s", why.message);
+    return GM_OK;
+}
+
+/* What follows from other values: bearing dimensions from the designation, bores. */
+static gm_status complete(gm_description *d, gm_error *error)
+{
+    gm_status status = GM_OK;
+    for (int i = 0; i < d->n_bearings && status == GM_OK; i++)
+        status = complete_bearing(d, "bearing", &d->bearings[i].id, &d->bearings[i].data,
+                                  error);
+    for (int i = 0; i < d->n_wheels && status == GM_OK; i++) {
+        gm_wheel *w = &d->wheels[i];
+        status = complete_bearing(d, "gear", &w->id, &w->bearing, error);
+        const gm_segment *s = gm_shaft_segment(&d->shafts[w->shaft], w->position);
+        if (isnan(w->bore) && w->idles)
+            w->bore = w->bearing.D;
+        if (isnan(w->bore) && s)
+            w->bore = s->diameter;
+    }
+    return status;
+}
+
+static gm_status read_into(const char *path, gm_description *d, gm_error *error)
+{
+    char *bytes = NULL;
+    size_t size = 0;
+    gm_yaml *tree = NULL;
+    d->file = gm_strdup(path);
+    gm_status status = d->file ? read_bytes(path, &bytes, &size, error)
+                               : gm_fail(error, GM_ERR_MEMORY, "out of memory");
+    if (status == GM_OK)
+        status = hash_bytes(bytes, size, d->sha256, error);
+    if (status == GM_OK)
+        status = gm_yaml_parse(path, bytes, size, &tree, error);
+    if (status == GM_OK)
+        status = gm_description_fields(d, tree, error);
+    if (status == GM_OK) {
+        arrange(d);
+        status = complete(d, error);
+    }
+    if (status == GM_OK)
+        status = gm_check_description(d, error);
+    gm_yaml_destroy(tree);
+    gm_free(bytes);
+    return status;
+}
+
+gm_status gm_description_read(const char *path, gm_description **description,
+                              gm_error *error)
+{
+    gm_description *d = gm_calloc(1, sizeof *d);
+    if (!d)
+        return gm_fail(error, GM_ERR_MEMORY, "out of memory");
+    gm_status status = read_into(path, d, error);
+    if (status != GM_OK) {
+        gm_description_destroy(d);
+        return status;
+    }
+    *description = d;
+    return GM_OK;
+}
+
+void gm_description_destroy(gm_description *d)
+{
+    if (!d)
+        return;
+    for (int i = 0; d->shafts && i < d->n_shafts; i++)
+        gm_free(d->shafts[i].segments);
+    for (int i = 0; d->synchronisers && i < d->n_synchronisers; i++)
+        gm_free(d->synchronisers[i].wheels);
+    for (int i = 0; i < GM_MAX_INPUT_PATHS; i++)
+        gm_free(d->paths[i].gears);
+    gm_free(d->shafts);
+    gm_free(d->wheels);
+    gm_free(d->meshes);
+    gm_free(d->bearings);
+    gm_free(d->seals);
+    gm_free(d->gaps);
+    gm_free(d->synchronisers);
+    gm_free(d->title);
+    gm_free(d->file);
+    gm_free(d);
+}

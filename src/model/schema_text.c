@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The schema in words: what a field must be (for messages), and the reference of the
+ * whole format (for the help and docs/description.md).
+ */
+#include "model/gm_description.h"
+#include "model/schema.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Appends to text[size], cutting silently: callers give enough room. */
+GM_PRINTF(3, 4)
+static void add(char *text, size_t size, const char *format, ...)
+{
+    size_t n = strlen(text);
+    va_list args;
+    va_start(args, format);
+    (void)vsnprintf(text + n, size - n, format, args);
+    va_end(args);
+}
+
+static void add_range(const gm_field *field, char *text, size_t size)
+{
+    if (field->low == field->high) {
+        add(text, size, " %.15g", field->low);
+        return;
+    }
+    add(text, size, " %s %.15g and %s %.15g",
+        field->open & GM_OPEN_LOW ? "greater than" : "from", field->low,
+        field->open & GM_OPEN_HIGH ? "less than" : "up to", field->high);
+}
+
+static void add_choices(const gm_field *field, char *text, size_t size)
+{
+    for (const gm_choice *c = field->choices; c->word; c++)
+        add(text, size, "%s%s",
+            c == field->choices ? ""
+            : c[1].word         ? ", "
+                                : " or ",
+            c->word);
+}
+
+static void add_number(const gm_field *field, char *text, size_t size)
+{
+    const gm_unit *unit = gm_schema_unit(field->key);
+    add(text, size, "a number%s%s", unit->name[0] ? " in " : "", unit->name);
+    add_range(field, text, size);
+}
+
+static void add_references(const gm_field *field, char *text, size_t size)
+{
+    if (field->fixed_count)
+        add(text, size, "a list of %d names of %s", field->fixed_count,
+            field->section->title);
+    else
+        add(text, size, "a list of names of %s", field->section->title);
+}
+
+void gm_schema_expectation(const gm_field *field, char *text, size_t size)
+{
+    text[0] = '\0';
+    switch (field->type) {
+    case GM_FIELD_NUMBER:
+        add_number(field, text, size);
+        break;
+    case GM_FIELD_INTEGER:
+        add(text, size, "a whole number");
+        add_range(field, text, size);
+        break;
+    case GM_FIELD_BOOLEAN:
+        add(text, size, "true or false");
+        break;
+    case GM_FIELD_WORDS:
+        add(text, size, "text of at most %d bytes", GM_NAME_SIZE - 1);
+        break;
+    case GM_FIELD_TEXT:
+        add(text, size, "text");
+        break;
+    case GM_FIELD_CHOICE:
+        add_choices(field, text, size);
+        break;
+    case GM_FIELD_REFERENCE:
+        add(text, size, "the name of a %s%s", field->section->word,
+            field->need == GM_NEED_NOTHING ? " or housing" : "");
+        break;
+    case GM_FIELD_REFERENCES:
+        add_references(field, text, size);
+        break;
+    case GM_FIELD_GROUP:
+    case GM_FIELD_INLINE:
+        add(text, size, "a group of fields");
+        break;
+    case GM_FIELD_ITEMS:
+        add(text, size, "%s",
+            field->section->key == GM_KEY_NONE ? "a list of groups of fields"
+            : field->section->key == GM_KEY_NAME
+                ? "groups of fields, each under its name"
+                : "groups of fields, each under its number");
+        break;
+    }
+}
+
+typedef struct writer {
+    void (*write)(void *context, const char *text);
+    void *context;
+} writer;
+
+static void write_field(const writer *w, const gm_field *field)
+{
+    char text[256];
+    w->write(w->context, "- `");
+    w->write(w->context, field->key);
+    w->write(w->context, "`: ");
+    gm_schema_expectation(field, text, sizeof text);
+    w->write(w->context, text);
+    if (field->need == GM_NEED_NOTHING)
+        w->write(w->context, ", optional");
+    if (field->need == GM_NEED_DEFAULT && field->fallback && field->fallback[0]) {
+        w->write(w->context, ", default ");
+        w->write(w->context, field->fallback);
+    } else if (field->need == GM_NEED_DEFAULT) {
+        w->write(w->context, ", optional");
+    }
+    w->write(w->context, ". ");
+    w->write(w->context, field->help);
+    w->write(w->context, "\n");
+}
+
+static void write_fields(const writer *w, const gm_section *section)
+{
+    for (const gm_field *f = section->fields; f->key; f++) {
+        if (f->type == GM_FIELD_INLINE)
+            write_fields(w, f->section);
+        else
+            write_field(w, f);
+    }
+}
+
+static void write_section(const writer *w, const char *path, const gm_section *section)
+{
+    w->write(w->context, "### ");
+    w->write(w->context, path);
+    w->write(w->context, "\n\n");
+    w->write(w->context, section->help);
+    w->write(w->context, "\n\n");
+    write_fields(w, section);
+    w->write(w->context, "\n");
+    for (const gm_field *f = section->fields; f->key; f++) {
+        if (f->type != GM_FIELD_GROUP && f->type != GM_FIELD_ITEMS)
+            continue;
+        char inner[128];
+        (void)snprintf(inner, sizeof inner, "%s%s%s",
+                       section == gm_schema_root() ? "" : path,
+                       section == gm_schema_root() ? "" : " / ", f->key);
+        write_section(w, inner, f->section);
+    }
+}
+
+void gm_description_help(void (*write)(void *context, const char *text), void *context)
+{
+    const writer w = {write, context};
+    write_section(&w, "The file", gm_schema_root());
+}
