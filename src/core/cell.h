@@ -18,6 +18,9 @@ gm_value1 gm_cell1_refill(const gm_table1 *t, int table, gm_cell1 *cell, gm_real
 gm_value2 gm_cell2_refill(const gm_table2 *t, int table, gm_cell2 *cell, gm_real x,
                           gm_real y);
 
+gm_value3 gm_cell3_refill(const gm_table3 *t, int table, gm_cell3 *cell, gm_real x,
+                          gm_real y, gm_real z);
+
 static inline gm_value1 gm_cell1_inside(const gm_cell1 *c, gm_real x)
 {
     gm_value1 v;
@@ -54,6 +57,34 @@ static inline gm_value2 gm_cell2_at(const gm_table2 *t, int table, gm_cell2 *c, 
         return gm_cell2_inside(c, x, y);
     }
     return gm_cell2_refill(t, table, c, x, y);
+}
+
+static inline gm_value3 gm_cell3_inside(const gm_cell3 *c, gm_real x, gm_real y,
+                                        gm_real z)
+{
+    const gm_real u = x - c->x_low, v = y - c->y_low, w = z - c->z_low;
+    const gm_real near = c->c[0][0][0] + c->c[0][0][1] * w;
+    const gm_real near_v = c->c[0][1][0] + c->c[0][1][1] * w;
+    const gm_real far = c->c[1][0][0] + c->c[1][0][1] * w;
+    const gm_real far_v = c->c[1][1][0] + c->c[1][1][1] * w;
+    gm_value3 value;
+    value.dx = far + far_v * v;
+    value.dy = near_v + far_v * u;
+    value.dz =
+        c->c[0][0][1] + c->c[0][1][1] * v + (c->c[1][0][1] + c->c[1][1][1] * v) * u;
+    value.value = near + near_v * v + value.dx * u;
+    value.outside = 0;
+    return value;
+}
+
+static inline gm_value3 gm_cell3_at(const gm_table3 *t, int table, gm_cell3 *c, gm_real x,
+                                    gm_real y, gm_real z)
+{
+    if (c->table == table && x >= c->x_low && x < c->x_high && y >= c->y_low &&
+        y < c->y_high && z >= c->z_low && z < c->z_high) {
+        return gm_cell3_inside(c, x, y, z);
+    }
+    return gm_cell3_refill(t, table, c, x, y, z);
 }
 
 #endif

@@ -150,20 +150,78 @@ static gm_real layer(const place *x, const place *y, const gm_real *corner,
     return value;
 }
 
+/* Value and gradient by nested interpolation: for far corners, where the value must be
+ * the node's own. */
+static gm_value3 at_far_corner(const place p[3], const gm_real *corner, ptrdiff_t next_x,
+                               ptrdiff_t next_y, ptrdiff_t next_z)
+{
+    gm_real near[2], far[2], unused;
+    const gm_real low = layer(&p[0], &p[1], corner, next_x, next_y, near);
+    const gm_real high = layer(&p[0], &p[1], corner + next_z, next_x, next_y, far);
+    gm_value3 v;
+    v.value = between(&p[2], low, high, &v.dz);
+    v.dx = between(&p[2], near[0], far[0], &unused);
+    v.dy = between(&p[2], near[1], far[1], &unused);
+    v.outside = 0;
+    return v;
+}
+
+/* Corner values to coefficients: differences along one axis after the other. */
+static void fill_cell3(const place p[3], const gm_real *f, ptrdiff_t next_x,
+                       ptrdiff_t next_y, ptrdiff_t next_z, gm_cell3 *c)
+{
+    for (int i = 0; i < 8; i++) {
+        c->c[i >> 2][i >> 1 & 1][i & 1] =
+            f[(i >> 2) * next_x + (i >> 1 & 1) * next_y + (i & 1) * next_z];
+    }
+    for (int i = 0; i < 4; i++) {
+        const int a = i >> 1, b = i & 1;
+        c->c[1][a][b] = (c->c[1][a][b] - c->c[0][a][b]) * p[0].slope;
+    }
+    for (int i = 0; i < 4; i++) {
+        const int a = i >> 1, b = i & 1;
+        c->c[a][1][b] = (c->c[a][1][b] - c->c[a][0][b]) * p[1].slope;
+    }
+    for (int i = 0; i < 4; i++) {
+        const int a = i >> 1, b = i & 1;
+        c->c[a][b][1] = (c->c[a][b][1] - c->c[a][b][0]) * p[2].slope;
+    }
+}
+
+gm_value3 gm_cell3_refill(const gm_table3 *t, int table, gm_cell3 *c, gm_real x,
+                          gm_real y, gm_real z)
+{
+    const place p[3] = {place_on(&t->x, x), place_on(&t->y, y), place_on(&t->z, z)};
+    const ptrdiff_t n_y = t->y.n, n_z = t->z.n;
+    const gm_real *corner = t->value + (p[0].i * n_y + p[1].i) * n_z + p[2].i;
+    const ptrdiff_t next_x = t->x.n > 1 ? n_y * n_z : 0, next_y = n_y > 1 ? n_z : 0;
+    const ptrdiff_t next_z = n_z > 1;
+    c->table = table;
+    c->x_low = p[0].low;
+    c->x_high = p[0].high;
+    c->y_low = p[1].low;
+    c->y_high = p[1].high;
+    c->z_low = p[2].low;
+    c->z_high = p[2].high;
+    fill_cell3(p, corner, next_x, next_y, next_z, c);
+    gm_value3 v = p[0].far || p[1].far || p[2].far
+                      ? at_far_corner(p, corner, next_x, next_y, next_z)
+                      : gm_cell3_inside(c, p[0].q, p[1].q, p[2].q);
+    v.dx = p[0].outside ? 0 : v.dx;
+    v.dy = p[1].outside ? 0 : v.dy;
+    v.dz = p[2].outside ? 0 : v.dz;
+    v.outside = p[0].outside || p[1].outside || p[2].outside;
+    return v;
+}
+
+gm_value3 gm_table3_cached(const gm_table3 *t, int table, gm_cell3 *cell, gm_real x,
+                           gm_real y, gm_real z)
+{
+    return gm_cell3_at(t, table, cell, x, y, z);
+}
+
 gm_value3 gm_table3_at(const gm_table3 *t, gm_real x, gm_real y, gm_real z)
 {
-    const place px = place_on(&t->x, x), py = place_on(&t->y, y), pz = place_on(&t->z, z);
-    const ptrdiff_t n_y = t->y.n, n_z = t->z.n;
-    const gm_real *corner = t->value + (px.i * n_y + py.i) * n_z + pz.i;
-    const ptrdiff_t next_x = t->x.n > 1 ? n_y * n_z : 0, next_y = n_y > 1 ? n_z : 0;
-    gm_real near[2], far[2], unused;
-    const gm_real low = layer(&px, &py, corner, next_x, next_y, near);
-    const gm_real high = layer(&px, &py, corner + (n_z > 1), next_x, next_y, far);
-    gm_value3 v;
-    v.value = between(&pz, low, high, &v.dz);
-    v.dx = px.outside ? 0 : between(&pz, near[0], far[0], &unused);
-    v.dy = py.outside ? 0 : between(&pz, near[1], far[1], &unused);
-    v.dz = pz.outside ? 0 : v.dz;
-    v.outside = px.outside || py.outside || pz.outside;
-    return v;
+    gm_cell3 cell = {0};
+    return gm_cell3_refill(t, 1, &cell, x, y, z);
 }

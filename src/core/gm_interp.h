@@ -57,6 +57,12 @@ typedef struct gm_cell2 {
         cxy; /* c0 + cx u + cy v + cxy u v, u = x - x_low, v = y - y_low */
 } gm_cell2;
 
+typedef struct gm_cell3 {
+    int table;
+    gm_real x_low, x_high, y_low, y_high, z_low, z_high;
+    gm_real c[2][2][2]; /* sum of c[i][j][k] u^i v^j w^k */
+} gm_cell3;
+
 typedef struct gm_value1 {
     gm_real value, dx;
     int outside; /* 1: x was clamped */
@@ -84,8 +90,11 @@ gm_value1 gm_table1_at(const gm_table1 *t, int table, gm_cell1 *cell, gm_real x)
 gm_value2 gm_table2_at(const gm_table2 *t, int table, gm_cell2 *cell, gm_real x,
                        gm_real y);
 
-/** Value and gradient at (x, y, z), without a cache (used only while both paths carry
- *  load). */
+/** Value and gradient at (x, y, z); cell as above. */
+gm_value3 gm_table3_cached(const gm_table3 *t, int table, gm_cell3 *cell, gm_real x,
+                           gm_real y, gm_real z);
+
+/** The same value and gradient without a cache. */
 gm_value3 gm_table3_at(const gm_table3 *t, gm_real x, gm_real y, gm_real z);
 
 #ifdef __cplusplus

@@ -88,12 +88,13 @@ static void store(const gm_motion *s, gm_reduced_state *state)
 static int command_gear(const gm_reduced_map *map, int p, int number, gm_motion *s)
 {
     gm_path_state *path = &s->path[p];
+    if (path->mode != GM_PATH_NEUTRAL &&
+        map->path[p].gears[path->gear].number == number) {
+        return 0;
+    }
     const int gear = gm_reduced_find_gear(map, p, number);
     if (gear == -2) {
         return p == 0 ? GM_FLAG_GEAR_REFUSED_0 : GM_FLAG_GEAR_REFUSED_1;
-    }
-    if (path->mode != GM_PATH_NEUTRAL && path->gear == gear) {
-        return 0;
     }
     path->gear = gear;
     path->mode = gear < 0 ? GM_PATH_NEUTRAL : GM_PATH_SYNCHRONISING;

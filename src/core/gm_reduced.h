@@ -130,12 +130,29 @@ typedef struct gm_path_state {
     8 /* of a path; drag lines beyond are looked up without a cache                      \
        */
 
+/** c0 + cx u + cy v + cxy u v */
+typedef struct gm_surface {
+    gm_real c0, cx, cy, cxy;
+} gm_surface;
+
+/** N and R of a free path with all its drag lines, in one patch of the (w_n, w_o) plane
+ *  that no ramp touches; see reduced_drag.c. */
+typedef struct gm_drag_patch {
+    int key;                  /* 1 + 2 direction of w_n + direction of w_o; 0: empty */
+    int any_above, any_below; /* lines that the patch lies above, below of */
+    gm_real x_low, x_high, y_low, y_high;
+    gm_real ratio_above, ratio_below; /* the nearest of them */
+    gm_surface drag, reaction;
+} gm_drag_patch;
+
 /** Interpolation caches: no influence on results. Zeroed memory is an empty cache.
  *  Directions as in the map's tables. */
 typedef struct gm_reduced_cache {
     gm_cell1 coupling, parasitic[2], line[GM_MAX_PATHS][GM_CACHED_LINES];
     gm_cell2 load_loss[GM_MAX_PATHS][2];
     gm_cell2 drag[GM_MAX_PATHS][2][2], reaction[GM_MAX_PATHS][2][2];
+    gm_drag_patch patch[GM_MAX_PATHS];
+    gm_cell3 both_loaded[2];
 } gm_reduced_cache;
 
 /** Speed of every independent shaft and the accounts; plain data without pointers. */

@@ -36,47 +36,61 @@ gm_real gm_motion_inertia(const gm_reduced_map *map, const gm_motion *s)
     return sum;
 }
 
+static gm_real cone_torque(const gm_reduced_params *params, int p, gm_real slip)
+{
+    const gm_real most = params->sync_torque[p];
+    const gm_real capacity = most < GM_SYNC_AT_ONCE ? most : GM_SYNC_AT_ONCE;
+    return slip > 0 ? capacity : slip < 0 ? -capacity : 0;
+}
+
 static void drive_path(const gm_reduced_map *map, const gm_reduced_params *params,
                        const gm_motion *s, int p, gm_drive *d)
 {
     const gm_path_state *path = &s->path[p];
     const gm_gear *gear = gm_motion_gear(map, s, p);
-    d->engaged[p] = path->mode == GM_PATH_ENGAGED;
-    d->free[p] = !d->engaged[p];
+    const int engaged = path->mode == GM_PATH_ENGAGED;
+    const gm_real ratio = gear ? gear->ratio : 0, inertia = map->path[p].inertia;
+    d->engaged[p] = engaged;
+    d->free[p] = !engaged;
     d->gear[p] = gear;
-    d->ratio[p] = gear ? gear->ratio : 0;
-    d->inertia[p] = map->path[p].inertia;
+    d->ratio[p] = ratio;
+    d->inertia[p] = inertia;
     d->w[p] = path->w;
-    d->cone[p] = 0;
-    if (path->mode == GM_PATH_SYNCHRONISING) {
-        const gm_real slip = path->w - d->ratio[p] * s->w_o;
-        const gm_real most = params->sync_torque[p];
-        const gm_real capacity = most < GM_SYNC_AT_ONCE ? most : GM_SYNC_AT_ONCE;
-        d->cone[p] = slip > 0 ? capacity : slip < 0 ? -capacity : 0;
-    }
+    d->cone[p] = path->mode == GM_PATH_SYNCHRONISING
+                     ? cone_torque(params, p, path->w - ratio * s->w_o)
+                     : 0;
+    d->index = d->index * (map->path[p].n_gears + 1) + (engaged ? path->gear + 1 : 0);
+    d->inertia[GM_OUT] += engaged ? ratio * ratio * inertia : 0;
+}
+
+static void drive_no_path(int p, gm_drive *d)
+{
+    d->engaged[p] = d->free[p] = 0;
+    d->gear[p] = NULL;
+    d->ratio[p] = d->inertia[p] = d->w[p] = d->tau[p] = d->cone[p] = 0;
 }
 
 void gm_make_drive(const gm_reduced_map *map, const gm_reduced_params *params,
                    const gm_motion *s, gm_reduced_cache *cache, gm_drive *d)
 {
-    static const gm_drive empty = {0};
-    *d = empty;
     d->map = map;
     d->cache = cache;
-    d->index = gm_configuration_index(map, s->path);
-    d->configuration = &map->configurations[d->index];
     d->n_paths = map->n_paths;
     d->scale = params->loss_scale;
-    for (int p = 0; p < map->n_paths; p++) {
-        drive_path(map, params, s, p, d);
+    d->index = 0;
+    d->inertia[GM_OUT] = map->inertia_output;
+    drive_path(map, params, s, 0, d);
+    if (map->n_paths == 2) {
+        drive_path(map, params, s, 1, d);
+    } else {
+        drive_no_path(1, d);
     }
+    d->configuration = &map->configurations[d->index];
     d->coupled = map->n_paths == 2 && map->coupling.value != NULL &&
                  !(d->engaged[0] && d->engaged[1]);
-    d->inertia[GM_OUT] = gm_motion_inertia(map, s);
     d->w[GM_OUT] = s->w_o;
 }
 
-/* Mean torques over h seconds that begin t seconds into the step. */
 void gm_set_span(const gm_reduced_inputs *in, gm_real t, gm_real h, gm_drive *d)
 {
     const gm_real middle = t + h / 2;

@@ -54,6 +54,8 @@ typedef struct gm_path_terms {
     gm_real load, load_o, load_tau;           /* sigma_p D; d/dw_o, d/dtau_m */
     gm_real drag, drag_n, drag_o;             /* N; d/dw_n, d/dw_o */
     gm_real reaction, reaction_n, reaction_o; /* R */
+    int patched;    /* 1: N and R come from the patch of reduced_drag.c */
+    unsigned ramps; /* else: on which sides of the drag lines */
 } gm_path_terms;
 
 typedef struct gm_terms {
@@ -65,9 +67,9 @@ typedef struct gm_terms {
 
 typedef struct gm_solution {
     gm_point point;
-    gm_terms terms;        /* the very torques of the momentum balance */
-    int sign[GM_SHAFTS];   /* direction of rotation assumed: +1, -1 */
-    int held[GM_SHAFTS];   /* 1: at rest, friction holds it */
+    gm_terms terms;          /* the very torques of the momentum balance */
+    gm_real sign[GM_SHAFTS]; /* direction of rotation assumed: +1, -1 */
+    int held[GM_SHAFTS];     /* 1: at rest, friction holds it */
     int barred[GM_SHAFTS]; /* 1: was let go in this solution and did not move that way */
 } gm_solution;
 
@@ -86,9 +88,34 @@ static inline int gm_is_finite(gm_real x)
     return x - x == 0;
 }
 
-static inline int gm_direction(int sign)
+static inline int gm_direction(gm_real sign)
 {
     return sign < 0 ? GM_BACKWARD : GM_FORWARD;
+}
+
+/* Relative size of the bilinear remainder cxy du dv that a step may leave out. It is of
+ * second order in the step, like the method; the bound matters for large steps only. */
+#define GM_REMAINDER 1e-3
+#define GM_REMAINDER_NM 1e-9 /* N.m, where the torque itself passes through zero */
+
+/** Whether to lies in the same cell low .. high, or beyond the same edge, as from. */
+static inline int gm_stays(gm_real low, gm_real high, gm_real from, gm_real to)
+{
+    if (from < low) {
+        return to < low;
+    }
+    return from >= high ? to >= high : to >= low && to < high;
+}
+
+/** The same for a cell in two directions, with a small remainder; value: what the pass
+ *  made of this table. */
+static inline int gm_cell2_holds(const gm_cell2 *c, gm_real x, gm_real y, gm_real x_to,
+                                 gm_real y_to, gm_real value)
+{
+    return gm_stays(c->x_low, c->x_high, x, x_to) &&
+           gm_stays(c->y_low, c->y_high, y, y_to) &&
+           gm_abs(c->cxy * (x_to - x) * (y_to - y)) <=
+               GM_REMAINDER * gm_abs(value) + GM_REMAINDER_NM;
 }
 
 /** Gear engaged or being synchronised on path p; NULL in neutral. */
@@ -133,11 +160,16 @@ void gm_terms_at(const gm_drive *d, gm_solution *s, gm_point *point);
 
 /** Terms on the output and the load losses for direction sign of the output (terms->out
  *  and terms->path[].load of engaged paths) at point. */
-void gm_output_terms(const gm_drive *d, int sign, const gm_point *point, gm_terms *terms);
+void gm_output_terms(const gm_drive *d, gm_real sign, const gm_point *point,
+                     gm_terms *terms);
 
 /** N and R of free path p for the directions of the path and of the output. */
-void gm_drag_terms(const gm_drive *d, int p, int sign_n, int sign_o,
+void gm_drag_terms(const gm_drive *d, int p, gm_real sign_n, gm_real sign_o,
                    const gm_point *point, gm_terms *terms);
+
+/** Part of gm_terms_hold for free path p. */
+int gm_drag_holds(const gm_drive *d, const gm_solution *s, int p, const gm_point *from,
+                  const gm_point *next);
 
 /** Whether the linearised terms of s hold from point to next as well: every table read
  *  stays in its cell, and what the gradients leave out of its bilinear surface is small.
@@ -151,7 +183,7 @@ void gm_solve(const gm_drive *d, gm_solution *s);
 /** Torque on shaft k at rest minus the friction it must overcome to break away in
  *  direction sign: it does when > 0 for sign = 1, < 0 for sign = -1. *terms receives the
  *  loss torques at that break-away. */
-gm_real gm_excess(const gm_drive *d, const gm_solution *s, int k, int sign,
+gm_real gm_excess(const gm_drive *d, const gm_solution *s, int k, gm_real sign,
                   gm_terms *terms);
 
 #endif

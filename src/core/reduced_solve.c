@@ -32,10 +32,11 @@ enum { GM_PASSES = 40, GM_FREE_PASSES = 3, GM_ROUNDS = 2 * GM_SHAFTS + 1 };
  * leave no unique solution. */
 #define PIVOT_LIMIT 0.1
 
-typedef struct linear_system {
-    gm_real matrix[GM_SHAFTS][GM_SHAFTS], right[GM_SHAFTS];
-    int active[GM_SHAFTS];
-} linear_system;
+/* One row of the linear system for the changes of the accelerations. */
+typedef struct row {
+    gm_real k[GM_SHAFTS], right;
+    gm_real least; /* smallest pivot that is accepted */
+} row;
 
 /* ---- the linear system ---- */
 
@@ -66,11 +67,11 @@ static gm_real passed_on(const gm_drive *d, const gm_terms *t, int p)
     return d->ratio[p] * (1 - t->path[p].load_tau) - t->out_tau[p];
 }
 
-static void fill_output_row(const gm_drive *d, const gm_terms *t, const gm_point *at,
-                            linear_system *s)
+static row output_row(const gm_drive *d, const gm_terms *t, const gm_point *at)
 {
     const gm_real half = d->h / 2;
     gm_real slope = t->out_o, inertia = d->map->inertia_output;
+    row line = {{0, 0, 0}, output_balance(d, t, at), PIVOT_LIMIT * d->inertia[GM_OUT]};
     for (int p = 0; p < d->n_paths; p++) {
         const gm_path_terms *path = &t->path[p];
         const gm_real r = d->ratio[p];
@@ -78,66 +79,49 @@ static void fill_output_row(const gm_drive *d, const gm_terms *t, const gm_point
             const gm_real q = passed_on(d, t, p);
             inertia += d->inertia[p] * r * q;
             slope += r * (path->load_o + q * t->coupling_w);
-            s->matrix[GM_OUT][1 - p] -= half * q * t->coupling_w;
+            line.k[1 - p] -= half * q * t->coupling_w;
         } else {
             slope += path->reaction_o;
-            s->matrix[GM_OUT][p] += half * path->reaction_n;
+            line.k[p] += half * path->reaction_n;
         }
     }
-    s->matrix[GM_OUT][GM_OUT] = inertia + half * slope;
-    s->right[GM_OUT] = output_balance(d, t, at);
+    line.k[GM_OUT] = inertia + half * slope;
+    return line;
 }
 
-static void fill_path_row(const gm_drive *d, const gm_terms *t, const gm_point *at, int p,
-                          linear_system *s)
+static row path_row(const gm_drive *d, const gm_terms *t, const gm_point *at, int p)
 {
-    const gm_real half = d->h / 2;
+    const gm_real half = d->h / 2, c_w = t->coupling_w;
     const gm_path_terms *path = &t->path[p];
     const int other = 1 - p;
-    gm_real cross = path->drag_o;
-    if (d->engaged[other]) {
-        cross -= t->coupling_w * d->ratio[other];
-    }
-    s->matrix[p][p] = d->inertia[p] + half * (path->drag_n + t->coupling_w);
-    s->matrix[p][other] = -half * t->coupling_w;
-    s->matrix[p][GM_OUT] = half * cross;
-    s->right[p] = path_balance(d, t, at, p);
+    row line = {{0, 0, 0}, path_balance(d, t, at, p), PIVOT_LIMIT * d->inertia[p]};
+    line.k[p] = d->inertia[p] + half * (path->drag_n + c_w);
+    line.k[other] = -half * c_w;
+    line.k[GM_OUT] =
+        half * (path->drag_o - (d->engaged[other] ? c_w * d->ratio[other] : 0));
+    return line;
 }
 
-/* Forward elimination and back substitution in fixed order; 0 when a pivot is too small.
- */
-static int eliminate(const gm_drive *d, linear_system *s, gm_real change[GM_SHAFTS])
+/* Elimination in fixed order; a shaft that does not move by itself has a row of the unit
+ * matrix. 0 when a pivot is too small. */
+static int eliminate(row r[GM_SHAFTS], gm_real change[GM_SHAFTS])
 {
-    for (int k = 0; k < GM_SHAFTS; k++) {
-        change[k] = 0;
-        if (!s->active[k]) {
-            continue;
-        }
-        if (!(s->matrix[k][k] > PIVOT_LIMIT * d->inertia[k])) {
-            return 0;
-        }
-        const gm_real inverse = 1 / s->matrix[k][k];
-        s->right[k] *= inverse;
-        for (int j = k + 1; j < GM_SHAFTS; j++) {
-            s->matrix[k][j] *= inverse;
-        }
-        for (int i = k + 1; i < GM_SHAFTS; i++) {
-            const gm_real f = s->matrix[i][k];
-            for (int j = k + 1; j < GM_SHAFTS; j++) {
-                s->matrix[i][j] -= f * s->matrix[k][j];
-            }
-            s->right[i] -= f * s->right[k];
-        }
-    }
-    for (int k = GM_SHAFTS - 1; k >= 0; k--) {
-        if (s->active[k]) {
-            change[k] = s->right[k];
-            for (int j = k + 1; j < GM_SHAFTS; j++) {
-                change[k] -= s->matrix[k][j] * change[j];
-            }
-        }
-    }
-    return 1;
+    row *a = &r[0], *b = &r[1], *o = &r[GM_OUT];
+    const gm_real inverse_a = 1 / a->k[0], f_b = b->k[0] * inverse_a;
+    const gm_real f_o = o->k[0] * inverse_a;
+    b->k[1] -= f_b * a->k[1];
+    b->k[2] -= f_b * a->k[2];
+    b->right -= f_b * a->right;
+    o->k[1] -= f_o * a->k[1];
+    o->k[2] -= f_o * a->k[2];
+    o->right -= f_o * a->right;
+    const gm_real inverse_b = 1 / b->k[1], g_o = o->k[1] * inverse_b;
+    o->k[2] -= g_o * b->k[2];
+    o->right -= g_o * b->right;
+    change[GM_OUT] = o->right / o->k[2];
+    change[1] = (b->right - b->k[2] * change[GM_OUT]) * inverse_b;
+    change[0] = (a->right - a->k[1] * change[1] - a->k[2] * change[GM_OUT]) * inverse_a;
+    return a->k[0] > a->least && b->k[1] > b->least && o->k[2] > o->least;
 }
 
 static void drop_gradients(gm_terms *t)
@@ -154,18 +138,16 @@ static void newton_change(const gm_drive *d, gm_solution *s, const gm_point *at,
                           gm_real change[GM_SHAFTS])
 {
     for (int attempt = 0; attempt < 2; attempt++) {
-        linear_system system = {{{0}}, {0}, {0}};
+        row rows[GM_SHAFTS] = {{{1, 0, 0}, 0, 0}, {{0, 1, 0}, 0, 0}, {{0, 0, 1}, 0, 0}};
         for (int p = 0; p < d->n_paths; p++) {
-            system.active[p] = d->free[p] && !s->held[p];
-            if (system.active[p]) {
-                fill_path_row(d, &s->terms, at, p, &system);
+            if (d->free[p] && !s->held[p]) {
+                rows[p] = path_row(d, &s->terms, at, p);
             }
         }
-        system.active[GM_OUT] = !s->held[GM_OUT];
-        if (system.active[GM_OUT]) {
-            fill_output_row(d, &s->terms, at, &system);
+        if (!s->held[GM_OUT]) {
+            rows[GM_OUT] = output_row(d, &s->terms, at);
         }
-        if (eliminate(d, &system, change)) {
+        if (eliminate(rows, change)) {
             return;
         }
         drop_gradients(&s->terms); /* leaves a diagonal of inertias */
@@ -187,20 +169,23 @@ static void set_speeds(const gm_drive *d, gm_point *at)
 static void linearise(const gm_drive *d, gm_terms *t, const gm_point *from, gm_point *to)
 {
     const gm_real d_o = to->m[GM_OUT] - from->m[GM_OUT];
+    const gm_real d_a = to->a[GM_OUT] - from->a[GM_OUT];
     const gm_real d_c = t->coupling_w * (to->m[0] - from->m[0] - (to->m[1] - from->m[1]));
     t->coupling += d_c;
     t->out += t->out_o * d_o;
     for (int p = 0; p < d->n_paths; p++) {
         gm_path_terms *path = &t->path[p];
-        const gm_real d_n = to->m[p] - from->m[p];
-        const gm_real d_tau =
-            (p == 0 ? -d_c : d_c) -
-            d->inertia[p] * d->ratio[p] * (to->a[GM_OUT] - from->a[GM_OUT]);
-        to->tau_m[p] = from->tau_m[p] + d_tau;
-        t->out += t->out_tau[p] * d_tau;
-        path->load += path->load_o * d_o + path->load_tau * d_tau;
-        path->drag += path->drag_n * d_n + path->drag_o * d_o;
-        path->reaction += path->reaction_n * d_n + path->reaction_o * d_o;
+        if (d->engaged[p]) {
+            const gm_real d_tau =
+                (p == 0 ? -d_c : d_c) - d->inertia[p] * d->ratio[p] * d_a;
+            to->tau_m[p] = from->tau_m[p] + d_tau;
+            t->out += t->out_tau[p] * d_tau;
+            path->load += path->load_o * d_o + path->load_tau * d_tau;
+        } else {
+            const gm_real d_n = to->m[p] - from->m[p];
+            path->drag += path->drag_n * d_n + path->drag_o * d_o;
+            path->reaction += path->reaction_n * d_n + path->reaction_o * d_o;
+        }
     }
 }
 
@@ -238,35 +223,43 @@ static void first_place(const gm_drive *d, const gm_solution *s, gm_point *at)
     set_speeds(d, at);
 }
 
+static void one_pass(const gm_drive *d, gm_solution *s, gm_point *at)
+{
+    gm_real change[GM_SHAFTS];
+    gm_terms_at(d, s, at);
+    newton_change(d, s, at, change);
+    for (int k = 0; k < GM_SHAFTS; k++) {
+        s->point.a[k] = at->a[k] + change[k];
+    }
+    set_speeds(d, &s->point);
+    linearise(d, &s->terms, at, &s->point);
+}
+
 static void run_passes(const gm_drive *d, gm_solution *s)
 {
+    gm_point at;
+    first_place(d, s, &at);
+    one_pass(d, s, &at);
+    if (gm_terms_hold(d, s, &at, &s->point)) {
+        return;
+    }
     gm_real low[GM_SHAFTS] = {-GM_FAR, -GM_FAR, -GM_FAR};
     gm_real high[GM_SHAFTS] = {GM_FAR, GM_FAR, GM_FAR};
-    gm_point at = {{0}, {0}, {0}};
-    first_place(d, s, &at);
-    for (int pass = 0;; pass++) {
-        gm_real change[GM_SHAFTS];
-        gm_point *to = &s->point;
-        gm_terms_at(d, s, &at);
-        newton_change(d, s, &at, change);
-        for (int k = 0; k < GM_SHAFTS; k++) {
-            to->a[k] = at.a[k] + change[k];
-        }
-        set_speeds(d, to);
-        linearise(d, &s->terms, &at, to);
-        if (pass == GM_PASSES - 1 || gm_terms_hold(d, s, &at, to)) {
-            return;
-        }
-        gm_point next = *to;
+    for (int pass = 1; pass < GM_PASSES; pass++) {
+        gm_point next = s->point;
         next_place(pass, &at, &next, low, high);
         set_speeds(d, &next);
         at = next;
+        one_pass(d, s, &at);
+        if (gm_terms_hold(d, s, &at, &s->point)) {
+            return;
+        }
     }
 }
 
 /* ---- rest ---- */
 
-static gm_real path_excess(const gm_drive *d, const gm_solution *s, int p, int sign,
+static gm_real path_excess(const gm_drive *d, const gm_solution *s, int p, gm_real sign,
                            gm_terms *t)
 {
     gm_point at = s->point;
@@ -275,7 +268,7 @@ static gm_real path_excess(const gm_drive *d, const gm_solution *s, int p, int s
     return path_balance(d, t, &at, p);
 }
 
-static gm_real output_excess(const gm_drive *d, const gm_solution *s, int sign,
+static gm_real output_excess(const gm_drive *d, const gm_solution *s, gm_real sign,
                              gm_terms *t)
 {
     gm_point at = s->point;
@@ -292,7 +285,7 @@ static gm_real output_excess(const gm_drive *d, const gm_solution *s, int sign,
     return output_balance(d, t, &at);
 }
 
-gm_real gm_excess(const gm_drive *d, const gm_solution *s, int k, int sign,
+gm_real gm_excess(const gm_drive *d, const gm_solution *s, int k, gm_real sign,
                   gm_terms *terms)
 {
     *terms = s->terms;
@@ -320,13 +313,14 @@ static int revise(const gm_drive *d, gm_solution *s, int k)
     if (s->held[k]) {
         const int sign = s->barred[k] ? 0 : breaks_away(d, s, k);
         s->held[k] = sign == 0;
-        s->sign[k] = sign == 0 ? 1 : sign;
+        s->sign[k] = sign < 0 ? -1 : 1;
         return sign != 0;
     }
     if (s->point.a[k] * s->sign[k] > 0) {
         return 0;
     }
-    s->held[k] = s->barred[k] = s->sign[k] = 1;
+    s->held[k] = s->barred[k] = 1;
+    s->sign[k] = 1;
     return 1;
 }
 

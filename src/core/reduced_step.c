@@ -195,26 +195,54 @@ static void treat_events(const gm_reduced_map *map, int event,
     }
 }
 
+/* Whether a shaft turns round, or a synchroniser's slip does. */
+static int passes_event(const gm_drive *d, const gm_motion *s)
+{
+    const gm_real w_o = d->w[GM_OUT];
+    int passed = w_o * s->w_o < 0;
+    for (int p = 0; p < d->n_paths; p++) {
+        if (d->free[p]) {
+            const gm_real slip = s->path[p].w - d->ratio[p] * s->w_o;
+            passed |= d->w[p] * s->path[p].w < 0 || d->cone[p] * slip < 0;
+        }
+    }
+    return passed;
+}
+
+/* Again from *from, which the sub-step has left, to its first event. */
+static void stop_at_event(const gm_reduced_map *map, const gm_reduced_inputs *in,
+                          const gm_span *span, gm_drive *d, gm_solution *solution,
+                          const gm_motion *from, gm_motion *s)
+{
+    gm_real start[GM_EVENTS], end[GM_EVENTS], w[GM_SHAFTS];
+    event_speeds(d, d->w, start);
+    end_speeds(d, solution, w);
+    event_speeds(d, w, end);
+    int event = first_event(start, end);
+    if (event < 0) {
+        return;
+    }
+    if (!span->last) {
+        event = locate(in, span->start, start, end, d, solution);
+    }
+    *s = *from;
+    advance(d, solution, s);
+    treat_events(map, event, start, end, s);
+}
+
 gm_real gm_substep(const gm_reduced_map *map, const gm_reduced_params *params,
                    const gm_reduced_inputs *in, const gm_span *span,
                    gm_reduced_cache *cache, gm_motion *s, int *outside)
 {
     gm_drive d;
     gm_solution solution;
-    gm_real start[GM_EVENTS], end[GM_EVENTS], w[GM_SHAFTS];
+    const gm_motion from = *s;
     gm_make_drive(map, params, s, cache, &d);
     gm_set_span(in, span->start, span->rest, &d);
     gm_solve(&d, &solution);
-    event_speeds(&d, d.w, start);
-    end_speeds(&d, &solution, w);
-    event_speeds(&d, w, end);
-    int event = first_event(start, end);
-    if (event >= 0 && !span->last) {
-        event = locate(in, span->start, start, end, &d, &solution);
-    }
     advance(&d, &solution, s);
-    if (event >= 0) {
-        treat_events(map, event, start, end, s);
+    if (passes_event(&d, s)) {
+        stop_at_event(map, in, span, &d, &solution, &from, s);
     }
     *outside |= solution.terms.outside;
     return d.h;
