@@ -14,6 +14,7 @@
 
 #define RPM_PER_RAD_S 9.549296585513721 /* 60 / (2 pi) */
 #define KELVIN 273.15
+#define SMALL_SHARE 1e-3 /* of the loss: below, an element is not listed */
 
 static int has_gear(const gm_path_part *path, int number)
 {
@@ -185,6 +186,28 @@ static void print_head(const gm_checked_point *c, FILE *out)
     fputs("\n\n", out);
 }
 
+static void print_element(const gm_element_loss *e, FILE *out)
+{
+    int sliding = e->kind == GM_LOSS_MESH;
+    fprintf(out, "  %-24s %-17s %10.3f %8.1f %-3s %10.0f %10.0f\n", e->name,
+            gm_loss_kind_name(e->kind), e->power,
+            sliding ? e->speed : e->speed * RPM_PER_RAD_S, sliding ? "m/s" : "rpm",
+            e->radial, e->axial);
+}
+
+/* Largest first; those that hardly matter are only counted. */
+static void print_elements(const gm_checked_point *c, FILE *out)
+{
+    int n = 0;
+    fprintf(out, "\n%-26s %-17s %10s %12s %10s %10s\n", "element", "kind", "loss [W]",
+            "speed", "load [N]", "axial [N]");
+    for (; n < c->n_elements && c->elements[n].power >= SMALL_SHARE * c->loss; n++)
+        print_element(&c->elements[n], out);
+    if (n < c->n_elements)
+        fprintf(out, "  and %d others with less than %g %% each (all: --json)\n",
+                c->n_elements - n, 100.0 * SMALL_SHARE);
+}
+
 void gm_checked_point_print(const gm_checked_point *point, FILE *out)
 {
     double speed = fabs(point->request.speed);
@@ -197,16 +220,7 @@ void gm_checked_point_print(const gm_checked_point *point, FILE *out)
                     gm_loss_kind_name((gm_loss_kind)k), power, power / speed,
                     100.0 * power / point->loss);
     }
-    fprintf(out, "\n%-26s %-17s %10s %12s %10s %10s\n", "element", "kind", "loss [W]",
-            "speed", "load [N]", "axial [N]");
-    for (int i = 0; i < point->n_elements; i++) {
-        const gm_element_loss *e = &point->elements[i];
-        int sliding = e->kind == GM_LOSS_MESH;
-        fprintf(out, "  %-24s %-17s %10.3f %8.1f %-3s %10.0f %10.0f\n", e->name,
-                gm_loss_kind_name(e->kind), e->power,
-                sliding ? e->speed : e->speed * RPM_PER_RAD_S, sliding ? "m/s" : "rpm",
-                e->radial, e->axial);
-    }
+    print_elements(point, out);
 }
 
 static void element_json(const gm_element_loss *e, gm_json *json)

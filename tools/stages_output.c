@@ -13,6 +13,19 @@ static const char *direction_name(int direction)
     return direction > 0 ? "forward" : "backward";
 }
 
+/* gm_verify_group_name is for machines. */
+static const char *group_title(int group)
+{
+    static const char *const titles[GM_VERIFY_GROUPS] = {
+        [GM_VERIFY_SINGLE] = "one path engaged",
+        [GM_VERIFY_PRESELECTED] = "with a preselected gear",
+        [GM_VERIFY_BOTH_LOADED] = "both paths loaded",
+        [GM_VERIFY_DRAG] = "drag of a shaft in neutral",
+        [GM_VERIFY_REACTION] = "its reaction on the output",
+    };
+    return titles[group];
+}
+
 void gm_sweep_stage_json(const gm_sweep_stage *stage, gm_json *json)
 {
     gm_json_text(json, "map", stage->path);
@@ -129,8 +142,7 @@ void gm_verify_stage_print_groups(const gm_verify_stage *stage, FILE *out)
     fprintf(out, "    %-34s %9s %9s\n", "", "max", "RMS");
     for (int group = 0; group < GM_VERIFY_GROUPS; group++)
         if (r->n_cases[group] > 0)
-            fprintf(out, "    %-34s %7.3f %% %7.3f %%\n",
-                    gm_verify_group_name((gm_verify_group)group),
+            fprintf(out, "    %-34s %7.3f %% %7.3f %%\n", group_title(group),
                     100.0 * r->max_relative[group], 100.0 * r->rms_relative[group]);
 }
 
@@ -156,7 +168,7 @@ void gm_verify_stage_print(const gm_verify_stage *stage, FILE *out)
     for (int group = 0; group < GM_VERIFY_GROUPS; group++) {
         if (r->n_cases[group] == 0)
             continue;
-        fprintf(out, "\n%s\n", gm_verify_group_name((gm_verify_group)group));
+        fprintf(out, "\n%s\n", group_title(group));
         fprintf(out, "    %-6s %-6s %-9s %10s %11s %9s %18s\n", "path", "gear",
                 "rotation", "largest", "max", "RMS", "worst at");
         fprintf(out, "    %-6s %-6s %-9s %10s %11s %9s %9s %8s\n", "", "", "", "[N·m]",
