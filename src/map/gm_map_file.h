@@ -15,34 +15,46 @@
 extern "C" {
 #endif
 
-/** Read a finished map. One sentence when the file is missing, not a map, of another
- *  format version, truncated or damaged (its content does not give its content hash). */
+/** Read a finished map; on success *map is the caller's. One sentence and GM_ERR_IO when
+ *  the file cannot be opened; GM_ERR_FORMAT when it is not a map, of another format
+ *  version, an unfinished sweep, truncated or damaged (its content does not give its
+ *  content hash); GM_ERR_MEMORY. What is allocated is bounded by the size of the file. */
 GM_NODISCARD gm_status gm_map_read(const char *path, gm_map **map, gm_error *error);
 
 /** A sweep's journal beside the map to be. */
 typedef struct gm_journal gm_journal;
 
-/** Open or create "<path>.part" for a map whose axes and keys are set. Rows that an
- *  earlier run of the same sweep (same input hash, options and tables) finished are put
- *  into map->tables[].value and marked in done[table][row]; the journal of another sweep
- *  is replaced. GM_ERR_IO when the place cannot be written: nothing is left behind. */
-GM_NODISCARD gm_status gm_journal_open(const char *path, gm_map *map, gm_journal **journal,
-                                       gm_error *error);
+/** Open or create "<path>.part" for a map whose names, gear numbers, keys and axes are
+ *  set and whose values are zero. Rows that an earlier run of the same sweep (same tool
+ *  version, input hash, options, gears and tables in the same order) finished are put
+ *  into map->tables[].value; see gm_journal_has. The journal of another sweep, and a
+ *  damaged one, are begun anew. GM_ERR_IO when the place cannot be written, another sweep
+ *  is writing this journal, or a file that is no journal is in the way;
+ *  GM_ERR_FORMAT when the map's frame is wrong; GM_ERR_MEMORY. On failure *map is as
+ *  before and nothing new is left behind. */
+GM_NODISCARD gm_status gm_journal_open(const char *path, gm_map *map,
+                                       gm_journal **journal, gm_error *error);
 
-/** True when the row is finished. */
+/** True when the row (index on the first axis) is finished. */
 bool gm_journal_has(const gm_journal *journal, int table, int row);
 
 /** Number of finished rows found when the journal was opened. */
 int gm_journal_resumed(const gm_journal *journal);
 
 /** Keep one finished row (its values are read from map->tables[table]). Safe against a
- *  killed program from the moment it returns. Not thread-safe. */
+ *  killed program from the moment it returns. Not thread-safe. GM_ERR_ARGUMENT: no such
+ *  row, or a value is not finite. GM_ERR_IO, such as no space left. */
 GM_NODISCARD gm_status gm_journal_put(gm_journal *journal, const gm_map *map, int table,
                                       int row, gm_error *error);
 
 /** All rows are there: write ratios, inertias, provenance and the content hash (also into
- *  *map), and rename the file to its final name. The journal is closed in any case. */
-GM_NODISCARD gm_status gm_journal_finish(gm_journal *journal, gm_map *map, gm_error *error);
+ *  *map), and rename the file to its final name. Values that changed in *map since they
+ *  were put are written again; negative zeros become zeros, which is what SQLite keeps.
+ *  GM_ERR_ARGUMENT when rows are missing, GM_ERR_FORMAT when the map is not complete,
+ *  GM_ERR_IO, GM_ERR_MEMORY: then the journal stays, to be resumed. *journal is closed
+ *  and gone in any case. */
+GM_NODISCARD gm_status gm_journal_finish(gm_journal *journal, gm_map *map,
+                                         gm_error *error);
 
 /** Close. keep: the file stays, to be resumed; else it is removed. NULL is fine. */
 void gm_journal_close(gm_journal *journal, bool keep);

@@ -86,9 +86,16 @@ void gm_db_close(gm_db *db)
     *db = (gm_db){0};
 }
 
+/* The last error's primary code; SQLite calls some lacks of memory an I/O error. */
+static int code_of(const gm_db *db)
+{
+    int code = db->handle ? sqlite3_extended_errcode(db->handle) : SQLITE_NOMEM;
+    return code == SQLITE_IOERR_NOMEM ? SQLITE_NOMEM : code & 0xff;
+}
+
 gm_status gm_db_fail(const gm_db *db, gm_error *error)
 {
-    switch (db->handle ? sqlite3_errcode(db->handle) & 0xff : SQLITE_NOMEM) {
+    switch (code_of(db)) {
     case SQLITE_NOMEM:
         return gm_fail(error, GM_ERR_MEMORY, "no memory to work on %s", db->path);
     case SQLITE_NOTADB:

@@ -109,19 +109,20 @@ static file_kind look(const gm_journal *journal)
                                              : FILE_OTHER;
 }
 
-/* Empty (also when left by a program that was killed while it made it), a journal, or
+/* Empty (new, or left by a program that was killed while it made it), a journal, or
  * somebody's file. */
 static gm_status identify(const gm_journal *journal, bool *empty, gm_error *error)
 {
-    sqlite3_int64 objects = 1;
-    gm_error ignored;
+    sqlite3_int64 objects = 0;
     file_kind kind = look(journal);
-    if (kind == FILE_UNNAMED &&
-        gm_db_integer(&journal->db, "SELECT count(*) FROM sqlite_master", &objects,
-                      &ignored) == GM_OK &&
-        objects == 0)
-        kind = FILE_EMPTY;
-    if (kind == FILE_UNNAMED || kind == FILE_OTHER)
+    if (kind == FILE_UNNAMED) {
+        gm_status status = gm_db_integer(
+            &journal->db, "SELECT count(*) FROM sqlite_master", &objects, error);
+        if (status != GM_OK && status != GM_ERR_FORMAT)
+            return status;
+        kind = status == GM_OK && objects == 0 ? FILE_EMPTY : FILE_OTHER;
+    }
+    if (kind == FILE_OTHER)
         return gm_fail(error, GM_ERR_IO,
                        "%s is in the way: it is not the journal of a sweep; move or "
                        "remove it",
@@ -187,13 +188,16 @@ bool gm_journal_place(sqlite3_stmt *rows, const gm_map *map, int *table, int *ro
     return isfinite(*value);
 }
 
+/* Undo a load that failed on its way. */
 static void forget_values(gm_journal *journal, gm_map *map)
 {
-    for (int t = 0; t < map->n_tables; t++)
-        for (int i = 0; i < gm_map_table_size(&map->tables[t]); i++)
-            map->tables[t].value[i] = 0.0;
-    memset(journal->count, 0,
-           (size_t)journal->first[map->n_tables] * sizeof *journal->count);
+    for (int t = 0; t < map->n_tables; t++) {
+        int *count = &journal->count[journal->first[t]], size = journal->size[t];
+        for (int m = 0; m < gm_map_table_size(&map->tables[t]); m++)
+            if (count[m / size] > 0)
+                map->tables[t].value[m] = 0.0;
+        memset(count, 0, (size_t)row_count(map, t) * sizeof *count);
+    }
     journal->resumed = 0;
 }
 

@@ -42,8 +42,8 @@ static const schema_table tables[] = {
              ") WITHOUT ROWID"},
     {"axis", "CREATE TABLE axis (\n"
              "  axis INTEGER PRIMARY KEY,\n"
-             "  quantity TEXT NOT NULL CHECK (quantity IN ('path_speed', 'output_speed',\n"
-             "    'relative_speed', 'torque', 'torque_0', 'torque_1')),\n"
+             "  quantity TEXT NOT NULL CHECK (quantity IN ('path_speed',\n"
+             "    'output_speed', 'relative_speed', 'torque', 'torque_0', 'torque_1')),\n"
              "  unit TEXT NOT NULL CHECK (unit IN ('rad/s', 'N.m')),\n"
              "  n INTEGER NOT NULL CHECK (typeof(n) = 'integer' AND n > 0)\n"
              ")"},
@@ -99,7 +99,8 @@ static const char *const views[] = {
     "  " META("oil_temperature") " - 273.15 AS oil_degC,\n"
     "  " META("inertia_output") " AS inertia_output_kgm2,\n"
     "  " META("options") " AS options, " META("input_sha256") " AS input_sha256,\n"
-    "  " META("tool_version") " AS tool_version, " META("content_hash") " AS content_hash",
+    "  " META("tool_version") " AS tool_version,\n"
+    "  " META("content_hash") " AS content_hash",
 
     "CREATE VIEW v_gear AS SELECT p.name AS path, g.gear, g.ratio, g.ratio_given,\n"
     "  g.ratio / g.ratio_given - 1 AS relative_deviation,\n"

@@ -115,7 +115,7 @@ static void set_paths(gm_map *map, int n_paths)
         map->paths[p].sync_torque = 0.0;
         for (int g = 0; g < 2; g++) {
             map->paths[p].gears[g].number = numbers[p][g];
-            map->paths[p].gears[g].ratio_given = NAN;
+            map->paths[p].gears[g].ratio_given = (double)NAN;
         }
     }
 }

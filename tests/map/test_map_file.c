@@ -682,7 +682,7 @@ static void flipped_bits_never_give_another_map(void **state)
     uint64_t random = 2026;
     size_t size;
     int read = 0;
-    const int flips = 3000;
+    const int flips = 2500;
     write_map(map);
     unsigned char *bytes = read_bytes(path, &size);
     for (int n = 0; n < flips; n++) {
@@ -732,7 +732,7 @@ static void every_bit_of_a_value_counts(void **state)
     int found = 0;
     write_map(map);
     unsigned char *bytes = read_bytes(path, &size), number[8];
-    for (int t = 0; t < map->n_tables; t += 5) {
+    for (int t = 0; t < map->n_tables; t += 15) {
         size_t at = 0;
         big_endian(map->tables[t].value[1], number);
         while (at + 8 <= size && memcmp(bytes + at, number, 8) != 0)
@@ -747,7 +747,7 @@ static void every_bit_of_a_value_counts(void **state)
             bytes[at + (size_t)bit / 8] ^= (unsigned char)(1 << bit % 8);
         }
     }
-    assert_true(found >= map->n_tables / 5);
+    assert_true(found >= map->n_tables / 15);
     gm_free(bytes);
     gm_map_destroy(map);
 }
@@ -767,6 +767,34 @@ static void allocation_failures_while_reading(void **state)
     }
     assert_int_equal(status, GM_OK);
     assert_true(failures > map->n_tables);
+    assert_true(fixture_equal(map, copy));
+    gm_map_destroy(map);
+    gm_map_destroy(copy);
+}
+
+/* SQLite's own memory: under each limit the map is read or the answer is a status. */
+static void sqlite_without_memory_is_a_status(void **state)
+{
+    (void)state;
+    gm_map *map = fixture_map(&fixture_full), *copy = NULL;
+    int failures = 0;
+    write_map(map);
+    for (sqlite3_int64 limit = 1000; !copy && limit < 4000000; limit += limit / 20) {
+        gm_journal *journal = NULL;
+        (void)sqlite3_hard_heap_limit64(sqlite3_memory_used() + limit);
+        gm_status status = gm_map_read(path, &copy, NULL);
+        gm_error error = {0};
+        gm_status opened = gm_journal_open(path, map, &journal, &error);
+        (void)sqlite3_hard_heap_limit64(0);
+        assert_true(status == GM_OK || status == GM_ERR_MEMORY);
+        if (opened != GM_OK && opened != GM_ERR_MEMORY)
+            fail_msg("%d: %s", (int)opened, error.message);
+        failures += status != GM_OK;
+        gm_journal_close(journal, false);
+        assert_true(only(path));
+    }
+    assert_true(failures > 5);
+    assert_non_null(copy);
     assert_true(fixture_equal(map, copy));
     gm_map_destroy(map);
     gm_map_destroy(copy);
@@ -831,6 +859,7 @@ int main(void)
         CASE(flipped_bits_never_give_another_map),
         CASE(every_bit_of_a_value_counts),
         CASE(allocation_failures_while_reading),
+        CASE(sqlite_without_memory_is_a_status),
         CASE(allocation_failures_while_writing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
