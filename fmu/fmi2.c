@@ -206,11 +206,11 @@ static fmi2Status refuse_step(fmi2_instance *f, gm_verdict verdict, double t, do
                          h);
     case GM_VERDICT_TIME:
         return fmi2_fail(f, function,
-                         "the step starts at %.17g s, but the last one ended at %.17g s", t,
+                         "the step starts at %.15g s, but the last one ended at %.15g s", t,
                          f->run.time);
     case GM_VERDICT_STOP:
         return fmi2_fail(f, function,
-                         "the step from %.17g s by %g s goes beyond the stop time %.17g s",
+                         "the step from %.15g s by %g s goes beyond the stop time %.15g s",
                          t, h, f->run.stop_time);
     default:
         f->run.phase = GM_PHASE_STEP_FAILED;

@@ -52,7 +52,7 @@ gm_verdict gm_run_set(gm_run *run, gm_reference reference, gm_value value)
     gm_real x = v->type == GM_TYPE_REAL ? value.real : (gm_real)value.integer;
     if (!gm_number_is_finite(x))
         return GM_VERDICT_NOT_FINITE;
-    if (x < v->min || x > v->max)
+    if ((v->min > -GM_FREE && x < v->min) || (v->max < GM_FREE && x > v->max))
         return GM_VERDICT_RANGE;
     gm_component_set(&run->component, reference, value);
     return GM_VERDICT_OK;
@@ -87,7 +87,7 @@ static gm_verdict check_step(const gm_run *run, gm_real t, gm_real h)
 {
     if (!(h > 0.0) || !gm_number_is_finite(h))
         return GM_VERDICT_STEP_SIZE;
-    if (!(magnitude(t - run->time) <= time_tolerance(run, t)))
+    if (!gm_number_is_finite(t) || magnitude(t - run->time) > time_tolerance(run, t))
         return GM_VERDICT_TIME;
     gm_real slack = 1e-3 * h + 64.0 * DBL_EPSILON * magnitude(run->stop_time);
     if (run->stop_defined && t + h > run->stop_time + slack)
