@@ -91,8 +91,9 @@ static void describe(const gm_plant *plant, const gm_sweep_options *options, gm_
     snprintf(map->tool_version, sizeof map->tool_version, "%s", GM_VERSION);
     snprintf(map->input_sha256, sizeof map->input_sha256, "%s", info->source_sha256);
     snprintf(map->options, sizeof map->options,
-             "speed_step=%s torque_step=%s speed_max=%.17g torque_max=%.17g", speed,
-             torque, map->speed_max, map->torque_max);
+             "speed_step=%s torque_step=%s speed_max=%.17g torque_max=%.17g "
+             "oil_temperature=%.17g",
+             speed, torque, map->speed_max, map->torque_max, map->oil_temperature);
 }
 
 /* ---- threads ---- */

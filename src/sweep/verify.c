@@ -2,7 +2,7 @@
 #include "sweep/gm_verify.h"
 
 #include "base/alloc.h"
-#include "core/gm_reduced.h"
+#include "map/gm_map.h"
 #include "sweep/verify_points.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 #include "sweep/verify_points.h"
 
-#include "core/gm_reduced.h"
+#include "map/gm_map.h"
 
 #include <math.h>
 

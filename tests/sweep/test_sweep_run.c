@@ -75,9 +75,11 @@ static void options_change_the_hash_and_are_written_down(void **state)
     gm_map *steps =
         sweep_ok((gm_sweep_options){.speed_step = 100.0, .torque_step = 20.0});
     assert_string_equal(automatic->options,
-                        "speed_step=auto torque_step=auto speed_max=500 torque_max=40");
+                        "speed_step=auto torque_step=auto speed_max=500 torque_max=40 "
+                        "oil_temperature=353.14999999999998");
     assert_string_equal(steps->options,
-                        "speed_step=100 torque_step=20 speed_max=500 torque_max=40");
+                        "speed_step=100 torque_step=20 speed_max=500 torque_max=40 "
+                        "oil_temperature=353.14999999999998");
     assert_string_not_equal(automatic->content_hash, steps->content_hash);
     gm_map_destroy(automatic);
     gm_map_destroy(steps);
