@@ -117,13 +117,13 @@ def test_a_gear_that_cannot_be_preselected():
 
 # Damage done to the example: (name, pattern, replacement, words the sentence must hold).
 DAMAGE = [
-    ("not_a_number", r"(width: *)[\d.]+", r"\g<1>3o0", "3o0"),
-    ("with_a_unit", r"(width: *)[\d.]+", r"\g<1>30 mm", "30 mm"),
-    ("nan", r"(width: *)[\d.]+", r"\g<1>.nan", "nan"),
-    ("infinite", r"(width: *)[\d.]+", r"\g<1>.inf", "inf"),
-    ("negative", r"(width: *)[\d.]+", r"\g<1>-12", "-12"),
-    ("unknown_key", r"width: *([\d.]+)", r"widht: \g<1>", "widht"),
-    ("wrong_teeth", r"(teeth: *)(\d+)", r"\g<1>7\g<2>", "teeth"),
+    ("not_a_number", r"(width_mm: *)[\d.]+", r"\g<1>3o0", "3o0"),
+    ("with_a_unit", r"(width_mm: *)[\d.]+", r"\g<1>30 mm", "30 mm"),
+    ("nan", r"(width_mm: *)[\d.]+", r"\g<1>.nan", "nan"),
+    ("infinite", r"(width_mm: *)[\d.]+", r"\g<1>.inf", "inf"),
+    ("negative", r"(width_mm: *)[\d.]+", r"\g<1>-12", "-12"),
+    ("unknown_key", r"width_mm: *([\d.]+)", r"widht_mm: \g<1>", "widht_mm"),
+    ("wrong_teeth", r"(teeth: *)(\d+)", r"\g<1>7\g<2>", "mm"),
     ("not_yaml", r"\Z", "\nx: [1, 2\n", ""),
 ]
 
