@@ -30,9 +30,8 @@ static gm_status check_segments(const gm_description *d, const gm_shaft *shaft,
 {
     for (int i = 0; i < shaft->n_segments; i++) {
         const gm_segment *s = &shaft->segments[i];
-        const gm_label at = {.line = s->line};
         gm_label id = shaft->id;
-        id.line = at.line;
+        id.line = s->line;
         if (!(s->to > s->from))
             return gm_part_fail(d, "shaft", &id, error,
                                 "segment %d: to_mm must be greater than from_mm; found "
@@ -57,7 +56,7 @@ static gm_status check_segments(const gm_description *d, const gm_shaft *shaft,
 static gm_status check_support(const gm_description *d, int shaft, gm_error *error)
 {
     int n = 0, locating = 0;
-    double low = INFINITY, high = -INFINITY;
+    double low = HUGE_VAL, high = -HUGE_VAL;
     for (int i = 0; i < d->n_bearings; i++) {
         const gm_bearing *b = &d->bearings[i];
         if (b->shaft != shaft)

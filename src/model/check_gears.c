@@ -63,9 +63,8 @@ static gm_status check_gear(const gm_description *d, const gm_wheel *w, gm_error
         return gm_part_fail(d, "gear", &w->id, error,
                             "a gear with internal teeth needs inertia_kgm2 and mass_kg, "
                             "which do not follow from its teeth");
-    if (w->idles && !(w->bearing.D > 0.0) && w->bearing.friction != GM_FRICTION_NONE)
-        return gm_part_fail(d, "gear", &w->id, error,
-                            "an idling gear needs a bearing with dimensions");
+    if (w->idles && w->bearing.D == 0.0) /* the group is absent */
+        return gm_part_fail(d, "gear", &w->id, error, "an idling gear needs a bearing");
     gm_status status = check_position(d, w, error);
     return status == GM_OK ? check_bore(d, w, error) : status;
 }
@@ -105,12 +104,6 @@ static gm_status check_mates(const gm_description *d, const gm_mesh *m, gm_error
 static gm_status check_overlap(const gm_description *d, const gm_mesh *m, gm_error *error)
 {
     const gm_wheel *a = &d->wheels[m->wheel[0]], *b = &d->wheels[m->wheel[1]];
-    if (a->shaft == b->shaft)
-        return gm_part_fail(
-            d, "mesh", &m->id, error,
-            "gears that mesh sit on different shafts; found '%s' and '%s' "
-            "both on '%s'",
-            a->id.name, b->id.name, d->shafts[a->shaft].id.name);
     double apart = fabs(b->position - a->position);
     double reach = 0.5 * (a->width + b->width);
     if (!(apart < reach - TOUCH))
@@ -162,13 +155,16 @@ static gm_status check_geometry(const gm_description *d, const gm_mesh *m,
     return GM_OK;
 }
 
-static gm_status check_twice(const gm_description *d, int mesh, gm_error *error)
+static gm_status check_partners(const gm_description *d, int mesh, gm_error *error)
 {
     const gm_mesh *m = &d->meshes[mesh];
-    if (m->wheel[0] == m->wheel[1])
-        return gm_part_fail(d, "mesh", &m->id, error,
-                            "needs two different gears, found '%s' twice",
-                            d->wheels[m->wheel[0]].id.name);
+    const gm_wheel *a = &d->wheels[m->wheel[0]], *b = &d->wheels[m->wheel[1]];
+    if (a->shaft == b->shaft)
+        return gm_part_fail(
+            d, "mesh", &m->id, error,
+            "gears that mesh sit on different shafts; found '%s' and '%s' "
+            "both on '%s'",
+            a->id.name, b->id.name, d->shafts[a->shaft].id.name);
     for (int i = 0; i < mesh; i++) {
         const int *w = d->meshes[i].wheel;
         if ((w[0] == m->wheel[0] && w[1] == m->wheel[1]) ||
@@ -186,7 +182,7 @@ static gm_status check_mesh(const gm_description *d, int mesh, gm_error *error)
     if (m->loss == GM_MESH_CONSTANT && isnan(m->efficiency))
         return gm_part_fail(d, "mesh", &m->id, error,
                             "the loss model constant needs an efficiency");
-    gm_status status = check_twice(d, mesh, error);
+    gm_status status = check_partners(d, mesh, error);
     if (status == GM_OK)
         status = check_mates(d, m, error);
     if (status == GM_OK)

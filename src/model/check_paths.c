@@ -69,10 +69,9 @@ static gm_status check_synchroniser(const gm_description *d, const gm_synchronis
                                 w->id.name, d->shafts[s->shaft].id.name,
                                 d->shafts[w->shaft].id.name);
         if (!w->idles)
-            return gm_part_fail(
-                d, "synchroniser", &s->id, error,
-                "gear '%s' must idle on its shaft, found it fixed (line %d)", w->id.name,
-                w->id.line);
+            return gm_part_fail(d, "synchroniser", &s->id, error,
+                                "gear '%s' must idle on its shaft, found it fixed",
+                                w->id.name);
         if (synchronisers_of(d, s->wheels[k]) > 1)
             return gm_part_fail(d, "synchroniser", &s->id, error,
                                 "gear '%s' can have 1 synchroniser, found %d", w->id.name,

@@ -179,7 +179,7 @@ static gm_status complete(gm_description *d, gm_error *error)
         gm_wheel *w = &d->wheels[i];
         status = complete_bearing(d, "gear", &w->id, &w->bearing, error);
         const gm_segment *s = gm_shaft_segment(&d->shafts[w->shaft], w->position);
-        if (isnan(w->bore) && w->idles)
+        if (isnan(w->bore) && w->bearing.D > 0.0)
             w->bore = w->bearing.D;
         if (isnan(w->bore) && s)
             w->bore = s->diameter;

@@ -56,12 +56,26 @@ static gm_status wrong_value(const reader *r, const slot *s, const char *hint)
                                expected, gm_yaml_show(s->node, found), hint);
 }
 
+/* The key that is the word and a unit, or -1: temperature is far from temperature_degC.
+ */
+static int without_unit(const char *word, const char *const *keys, int n)
+{
+    size_t length = strlen(word);
+    for (int i = 0; i < n; i++)
+        if (strncmp(keys[i], word, length) == 0 &&
+            strcmp(keys[i] + length, gm_schema_unit(keys[i])->suffix) == 0)
+            return i;
+    return -1;
+}
+
 static gm_status unknown_key(const reader *r, const place *p, const gm_yaml *entry)
 {
     const char *keys[GM_MAX_KEYS];
     char shown[GM_YAML_SHOW];
     int n = gm_schema_keys(p->section, keys, GM_MAX_KEYS);
-    int near = gm_text_nearest(entry->key, keys, n);
+    int near = without_unit(entry->key, keys, n);
+    if (near < 0)
+        near = gm_text_nearest(entry->key, keys, n);
     return gm_description_fail(r->d->file, entry->line, p->element, GM_ERR_FORMAT,
                                r->error, "unknown key %s%s%s%s",
                                gm_yaml_show_text(entry->key, '\'', shown),

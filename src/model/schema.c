@@ -43,7 +43,6 @@ static const gm_unit units[] = {
 #define NUMBER(name, lo, hi) .key = name, .type = GM_FIELD_NUMBER, .low = lo, .high = hi
 #define INTEGER(name, lo, hi) .key = name, .type = GM_FIELD_INTEGER, .low = lo, .high = hi
 #define ABOVE .open = GM_OPEN_LOW
-#define BETWEEN .open = GM_OPEN_LOW | GM_OPEN_HIGH
 #define DEFAULT(text) .need = GM_NEED_DEFAULT, .fallback = text
 #define OPTIONAL .need = GM_NEED_NOTHING
 #define END {.key = NULL}
@@ -74,7 +73,8 @@ static const gm_field oil_fields[] = {
      .help = "alpha in rho = rho_15 (1 - alpha (T - 15 degC))"},
     {NUMBER("temperature_degC", -40, 160), AT(temperature), DEFAULT("80"),
      .help = "oil temperature at which the gearset is computed"},
-    {NUMBER("mesh_lubricant_factor", 0, 3), ABOVE, AT(mesh_lubricant_factor), DEFAULT("1"),
+    {NUMBER("mesh_lubricant_factor", 0, 3), ABOVE, AT(mesh_lubricant_factor),
+     DEFAULT("1"),
      .help = "X_L of ISO/TR 14179-2: 1 mineral oil, 0.8 synthetic hydrocarbon, "
              "0.75 a 75W transmission oil"},
     {NUMBER("bearing_mu_ehl", 0, 0.2), ABOVE, AT(bearing_mu_ehl), DEFAULT("0.05"),
@@ -146,8 +146,8 @@ static const gm_field bearing_data_fields[] = {
      .help = "deep groove ball bearings: the catalogue's number, such as \"6206\", in "
              "place of dimensions"},
     {.key = "series", .type = GM_FIELD_WORDS, OPTIONAL, AT(series),
-     .help = "row of the SKF friction constants, such as \"62\" or \"22\"; default of the "
-             "type"},
+     .help = "row of the SKF friction constants, such as \"62\" or \"22\"; default "
+             "of the type"},
     {NUMBER("bore_mm", 0, 2000), ABOVE, AT(d), OPTIONAL, .help = "inner diameter d"},
     {NUMBER("outer_mm", 0, 2000), ABOVE, AT(D), OPTIONAL, .help = "outer diameter D"},
     {NUMBER("width_mm", 0, 1000), ABOVE, AT(B), OPTIONAL, .help = "width B"},
@@ -304,7 +304,8 @@ static const gm_field synchroniser_fields[] = {
     {NUMBER("cone_torque_Nm", 0, 1e5), ABOVE, AT(cone_torque),
      .help = "friction torque up to which its cones synchronise"},
     {NUMBER("cone_radius_mm", 0, 1000), ABOVE, AT(cone_radius), .help = "mean radius"},
-    {NUMBER("cone_width_mm", 0, 1000), ABOVE, AT(cone_width), .help = "length of the cone"},
+    {NUMBER("cone_width_mm", 0, 1000), ABOVE, AT(cone_width),
+     .help = "length of the cone"},
     {NUMBER("cone_clearance_mm", 0, 50), ABOVE, AT(cone_clearance),
      .help = "oil film when open"},
     END};
@@ -336,7 +337,8 @@ static const gm_field path_fields[] = {
     {.key = "shaft", .type = GM_FIELD_REFERENCE, .section = &shaft_section, AT(shaft),
      .help = "the shaft with the input flange"},
     {.key = "gears", .type = GM_FIELD_ITEMS, .section = &path_gear_section, AT(gears),
-     .count_offset = offsetof(gm_path_part, n_gears), .help = "what it can be shifted to"},
+     .count_offset = offsetof(gm_path_part, n_gears),
+     .help = "what it can be shifted to"},
     END};
 static const gm_section path_section = {
     .title = "paths", .word = "path",
@@ -351,21 +353,26 @@ static const gm_section path_section = {
     .count_offset = offsetof(gm_description, count)
 static const gm_field root_fields[] = {
     {INTEGER("format", 1, 1), AT(format), .help = "version of this format"},
-    {.key = "name", .type = GM_FIELD_WORDS, AT(name), .help = "short name of the gearset"},
+    {.key = "name", .type = GM_FIELD_WORDS, AT(name),
+     .help = "short name of the gearset"},
     {.key = "title", .type = GM_FIELD_TEXT, AT(title), DEFAULT(""),
      .help = "one line that says what it is"},
     {.key = "limits", .type = GM_FIELD_GROUP, .section = &limit_section, .offset = 0,
      .help = "largest speed and torque"},
     {.key = "oil", .type = GM_FIELD_GROUP, .section = &oil_section, AT(oil),
      .help = "lubricant"},
-    {PARTS("shafts", shaft_section, shafts, n_shafts), .help = "by name"},
-    {PARTS("gears", gear_section, wheels, n_wheels), .help = "by name"},
-    {PARTS("meshes", mesh_section, meshes, n_meshes), .help = "by name"},
-    {PARTS("bearings", bearing_section, bearings, n_bearings), .help = "by name"},
-    {PARTS("seals", seal_section, seals, n_seals), OPTIONAL, .help = "by name"},
-    {PARTS("gaps", gap_section, gaps, n_gaps), OPTIONAL, .help = "by name"},
-    {PARTS("synchronisers", synchroniser_section, synchronisers, n_synchronisers), OPTIONAL,
-     .help = "by name"},
+    {PARTS("shafts", shaft_section, shafts, n_shafts),
+     .help = "what turns, all parallel to x"},
+    {PARTS("gears", gear_section, wheels, n_wheels), .help = "gear wheels"},
+    {PARTS("meshes", mesh_section, meshes, n_meshes), .help = "which gears mesh"},
+    {PARTS("bearings", bearing_section, bearings, n_bearings),
+     .help = "what carries the shafts"},
+    {PARTS("seals", seal_section, seals, n_seals), OPTIONAL,
+     .help = "radial shaft seals"},
+    {PARTS("gaps", gap_section, gaps, n_gaps), OPTIONAL,
+     .help = "oil films between concentric shafts"},
+    {PARTS("synchronisers", synchroniser_section, synchronisers, n_synchronisers),
+     OPTIONAL, .help = "what locks idling gears"},
     {PARTS("paths", path_section, paths, n_paths), .fixed_count = GM_MAX_INPUT_PATHS,
      .help = "odd and even, or input"},
     {.key = "output", .type = GM_FIELD_REFERENCE, .section = &shaft_section, AT(output),

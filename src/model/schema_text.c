@@ -28,9 +28,13 @@ static void add_range(const gm_field *field, char *text, size_t size)
         add(text, size, " %.15g", field->low);
         return;
     }
-    add(text, size, " %s %.15g and %s %.15g",
-        field->open & GM_OPEN_LOW ? "greater than" : "from", field->low,
-        field->open & GM_OPEN_HIGH ? "less than" : "up to", field->high);
+    add(text, size, field->open & GM_OPEN_LOW ? " greater than %.15g" : " from %.15g",
+        field->low);
+    add(text, size, "%s%.15g",
+        field->open & GM_OPEN_HIGH  ? " and less than "
+        : field->open & GM_OPEN_LOW ? " and up to "
+                                    : " to ",
+        field->high);
 }
 
 static void add_choices(const gm_field *field, char *text, size_t size)
@@ -67,7 +71,7 @@ void gm_schema_expectation(const gm_field *field, char *text, size_t size)
         add_number(field, text, size);
         break;
     case GM_FIELD_INTEGER:
-        add(text, size, "a whole number");
+        add(text, size, field->low == field->high ? "the number" : "a whole number");
         add_range(field, text, size);
         break;
     case GM_FIELD_BOOLEAN:
@@ -108,25 +112,19 @@ typedef struct writer {
     void *context;
 } writer;
 
+/* - `key`: what it is (what it must be, default ...) */
 static void write_field(const writer *w, const gm_field *field)
 {
     char text[256];
-    w->write(w->context, "- `");
-    w->write(w->context, field->key);
-    w->write(w->context, "`: ");
     gm_schema_expectation(field, text, sizeof text);
-    w->write(w->context, text);
-    if (field->need == GM_NEED_NOTHING)
-        w->write(w->context, ", optional");
-    if (field->need == GM_NEED_DEFAULT && field->fallback && field->fallback[0]) {
-        w->write(w->context, ", default ");
-        w->write(w->context, field->fallback);
-    } else if (field->need == GM_NEED_DEFAULT) {
-        w->write(w->context, ", optional");
-    }
-    w->write(w->context, ". ");
-    w->write(w->context, field->help);
-    w->write(w->context, "\n");
+    if (field->need == GM_NEED_DEFAULT && field->fallback && field->fallback[0])
+        add(text, sizeof text, ", default %s", field->fallback);
+    else if (field->need != GM_NEED_VALUE)
+        add(text, sizeof text, ", optional");
+    const char *const pieces[] = {"- `", field->key, "`: ", field->help,
+                                  " (",  text,       ")\n"};
+    for (size_t i = 0; i < sizeof pieces / sizeof pieces[0]; i++)
+        w->write(w->context, pieces[i]);
 }
 
 static void write_fields(const writer *w, const gm_section *section)
