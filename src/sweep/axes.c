@@ -12,6 +12,14 @@ void gm_nodes_power(int n, double max, double k, gm_nodes *nodes)
     nodes->x[n - 1] = max;
 }
 
+void gm_nodes_growth(int n, double max, double share, gm_nodes *nodes)
+{
+    nodes->n = n;
+    for (int i = 0; i < n; i++)
+        nodes->x[i] = max * share * (pow(1.0 + 1.0 / share, (double)i / (n - 1)) - 1.0);
+    nodes->x[n - 1] = max;
+}
+
 gm_status gm_nodes_uniform(double max, double step, const char *what, gm_nodes *nodes,
                            gm_error *error)
 {

@@ -2,10 +2,12 @@
  *
  * Nodes of the axes.
  *
- * A loss that grows like x^q (rolling friction: speed^0.6, load^0.54) has the same
- * interpolation error in every cell when the density of nodes goes with |f''|^(1/2), that
- * is for x = max (i/n)^k with k = 2/q: about 3. The power also puts the first nodes
- * below 1 rpm and near 0.1 N.m, where friction and the flanks of unloaded meshes turn.
+ * A loss that grows like x^q has the same interpolation error in every cell when the
+ * density of nodes goes with |f''|^(1/2), that is for x = max (i/n)^k with k = 2/q: the
+ * power axes. Friction over the speed is harder: constant near zero, then kinks where the
+ * sliding speed of a mesh leaves its lower limit, then v^-0.2, which has the same
+ * relative curvature at every speed and wants steps in equal ratios: the growth axes,
+ * even near zero and geometric beyond.
  */
 #ifndef AXES_H
 #define AXES_H
@@ -21,6 +23,10 @@ typedef struct gm_nodes {
 
 /** n >= 2 nodes from 0 to max > 0, x_i = max (i/(n-1))^k. */
 void gm_nodes_power(int n, double max, double k, gm_nodes *nodes);
+
+/** n >= 2 nodes from 0 to max > 0, x_i = a ((1 + max/a)^(i/(n-1)) - 1): even below
+ *  a = share * max, in equal ratios far above it. share > 0. */
+void gm_nodes_growth(int n, double max, double share, gm_nodes *nodes);
 
 /** 0, step, 2 step … and max. GM_ERR_ARGUMENT when these are more than fit, also after
  *  mirroring; what: the axis, for the sentence. */

@@ -7,21 +7,25 @@
 #include <math.h>
 #include <string.h>
 
-/* Nodes of the automatic axes; see axes.h for the power. Kinks may add a few. */
+/* Nodes of the automatic axes, chosen for the smallest error of the example at random
+   points between them; see axes.h. Kinks may add a few. The two torques next to zero are
+   where the flanks of meshes turn that carry next to nothing. */
 #define SPEED_NODES 35
 #define SPEED_NODES_MAX 40
-#define SPEED_POWER 3.0
+#define SPEED_SHARE 0.006 /* even steps below 40 rpm of 6500 */
 #define OVERSPEED_NODES 4 /* of a preselected path that turns faster than its maximum */
-#define TORQUE_NODES 14
-#define TORQUE_POWER 3.0
-#define FREE_NODES 21 /* N and R: path speed */
+#define TORQUE_NODES 13
+#define TORQUE_POWER 1.8
+#define TORQUE_FLANK 0.0012 /* of the largest torque: 0.3 of 250 N.m */
+#define FREE_NODES 21       /* N and R: path speed */
 #define FREE_OUTPUT_NODES 20
-#define FREE_POWER 2.5
+#define FREE_POWER 2.0
 #define COUPLING_NODES 11
+#define COUPLING_POWER 3.0
 #define BOTH_SPEED_NODES 4
 #define BOTH_SPEED_POWER 2.0
 #define BOTH_TORQUE_NODES 7
-#define BOTH_TORQUE_POWER 2.0
+#define BOTH_TORQUE_POWER 1.3
 #define MAX_KINKS 8
 
 typedef struct builder {
@@ -124,7 +128,7 @@ static gm_status speed_axis(builder *b, int p, int number, gm_nodes *nodes)
     double max = b->map->speed_max;
     if (by_steps(b))
         return gm_nodes_uniform(max, b->options->speed_step, "speed", nodes, b->error);
-    gm_nodes_power(SPEED_NODES, max, SPEED_POWER, nodes);
+    gm_nodes_growth(SPEED_NODES, max, SPEED_SHARE, nodes);
     double kinks[MAX_KINKS];
     int n = number == GM_NEUTRAL
                 ? 0
@@ -142,8 +146,10 @@ static gm_status torque_axis(builder *b, gm_nodes *nodes)
             gm_nodes_uniform(max, b->options->torque_step, "torque", nodes, b->error);
         if (status != GM_OK)
             return status;
-    } else
+    } else {
         gm_nodes_power(TORQUE_NODES, max, TORQUE_POWER, nodes);
+        gm_nodes_include(TORQUE_FLANK * max, TORQUE_NODES + 1, nodes);
+    }
     gm_nodes_mirror(nodes);
     return GM_OK;
 }
@@ -183,7 +189,7 @@ static gm_status plan_coupling(builder *b)
     gm_job job = {GM_JOB_COUPLING, 1, 0, -1, 0, 2};
     /* Two shafts may turn against each other at full speed. A friction that jumps at zero
        rises over the first cell, which is that of P and D: P(0) holds the jump. */
-    gm_nodes_power(COUPLING_NODES, 2.0 * b->map->speed_max, SPEED_POWER, &b->axis[0]);
+    gm_nodes_power(COUPLING_NODES, 2.0 * b->map->speed_max, COUPLING_POWER, &b->axis[0]);
     gm_nodes_include(b->first_speed, COUPLING_NODES + 1, &b->axis[0]);
     gm_nodes_mirror(&b->axis[0]);
     gm_status status = add_table(b, &key, 1, &job.table);

@@ -51,6 +51,19 @@ static void power_axis_spreads_the_error_of_a_root_evenly(void **state)
     assert_true(least > 0.0 && most < 2.0 * least);
 }
 
+/* Even at first, in equal ratios far above the share: what v^-0.2 wants. */
+static void growth_axis_is_even_and_then_geometric(void **state)
+{
+    (void)state;
+    gm_nodes_growth(61, 1000.0, 0.001, &nodes);
+    assert_true(nodes.x[0] == 0.0 && nodes.x[60] == 1000.0);
+    assert_increasing();
+    double first = nodes.x[1], second = nodes.x[2] - nodes.x[1];
+    assert_true(second / first < 1.13); /* (1 + 1000)^(1/60) = 1.122 */
+    for (int i = 40; i < 60; i++)       /* a / x < 1 % of the ratio there */
+        assert_near(nodes.x[i + 1] / nodes.x[i], pow(1001.0, 1.0 / 60.0), 0.01);
+}
+
 static void uniform_axis_has_every_step_and_the_end(void **state)
 {
     (void)state;
@@ -152,6 +165,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(power_axis_starts_at_zero_and_ends_at_max),
         cmocka_unit_test(power_axis_spreads_the_error_of_a_root_evenly),
+        cmocka_unit_test(growth_axis_is_even_and_then_geometric),
         cmocka_unit_test(uniform_axis_has_every_step_and_the_end),
         cmocka_unit_test(uniform_axis_does_not_double_its_end_by_rounding),
         cmocka_unit_test(too_small_a_step_is_refused_and_nothing_changes),

@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "sweep/gm_sweep.h"
 #include "sweep/verify_points.h"
+#include "reduced_probe.h"
 #include "synthetic.h"
 
 #include <setjmp.h>
@@ -49,47 +50,14 @@ static int tear_down(void **state)
     return 0;
 }
 
-/* The reduced gearset behind the probe, with errors that a test may ask for. */
-typedef struct reduced {
-    const gm_map_view *view;
-    double loss_factor; /* 1 */
-    double drag_offset; /* 0 */
-    int asked, fail_at; /* answer number that fails; 0: none */
-} reduced;
-
-static gm_status reduced_at(void *self, const gm_steady_point *point,
-                            double output_torque, gm_reduced_answer *answer, gm_error *e)
+static reduced_probe faithful(void)
 {
-    reduced *of = self;
-    const gm_reduced_map *m = gm_map_view_reduced(of->view);
-    gm_reduced_inputs inputs = {.output_tau = output_torque};
-    gm_reduced_params params;
-    gm_reduced_state s;
-    gm_reduced_outputs out;
-    if (++of->asked == of->fail_at)
-        return gm_fail(e, GM_ERR_TOOL, "asked once too often");
-    for (int p = 0; p < m->n_paths; p++) {
-        inputs.path_tau[p] = point->torque[1 + p];
-        inputs.gear[p] = point->gear[p];
-    }
-    gm_reduced_default_params(m, &params);
-    (void)gm_reduced_start(m, &inputs, point->speed[0], &point->speed[1], &s);
-    (void)gm_reduced_outputs_at(m, &params, &inputs, &s, &out);
-    *answer = (gm_reduced_answer){.loss_power = out.loss_power * of->loss_factor,
-                                  .output_reaction = out.output_loss_torque};
-    for (int p = 0; p < m->n_paths; p++)
-        answer->path_drag[p] = out.path_loss_torque[p] + of->drag_offset;
-    return GM_OK;
+    return (reduced_probe){.view = view, .loss_factor = 1.0};
 }
 
-static reduced faithful(void)
+static gm_verify_result verify(reduced_probe *of, int points, uint64_t seed)
 {
-    return (reduced){.view = view, .loss_factor = 1.0};
-}
-
-static gm_verify_result verify(reduced *of, int points, uint64_t seed)
-{
-    const gm_reduced_probe probe = {reduced_at, of};
+    const gm_reduced_probe probe = {reduced_probe_at, of};
     gm_verify_result result;
     const gm_plant *plant = of->view == view ? &source.plant : &single.plant;
     error = (gm_error){GM_OK, ""};
@@ -104,7 +72,7 @@ static void the_sweep_of_a_known_gearset_is_faithful(void **state)
 {
     (void)state;
     static const double limit[GM_VERIFY_GROUPS] = {2e-3, 2e-3, 2e-2, 1e-3, 1e-3};
-    reduced of = faithful();
+    reduced_probe of = faithful();
     gm_verify_result result = verify(&of, POINTS, 1);
     for (int g = 0; g < GM_VERIFY_GROUPS; g++)
         if (!(result.max_relative[g] < limit[g]))
@@ -116,7 +84,7 @@ static void the_sweep_of_a_known_gearset_is_faithful(void **state)
 static void one_path_has_no_pairs(void **state)
 {
     (void)state;
-    reduced of = {.view = single_view, .loss_factor = 1.0};
+    reduced_probe of = {.view = single_view, .loss_factor = 1.0};
     gm_verify_result result = verify(&of, POINTS, 1);
     assert_int_equal(result.n_cases[GM_VERIFY_SINGLE], 3 * 2);
     assert_int_equal(result.n_cases[GM_VERIFY_PRESELECTED], 0);
@@ -133,7 +101,7 @@ static void one_path_has_no_pairs(void **state)
 static void a_wrong_loss_is_measured(void **state)
 {
     (void)state;
-    reduced of = faithful();
+    reduced_probe of = faithful();
     of.loss_factor = 1.01;
     gm_verify_result result = verify(&of, POINTS, 2);
     for (int g = GM_VERIFY_SINGLE; g <= GM_VERIFY_BOTH_LOADED; g++) {
@@ -147,7 +115,7 @@ static void a_wrong_loss_is_measured(void **state)
 static void a_wrong_drag_is_measured_at_its_flange(void **state)
 {
     (void)state;
-    reduced of = faithful();
+    reduced_probe of = faithful();
     of.drag_offset = 0.5;
     gm_verify_result result = verify(&of, POINTS, 3);
     for (int i = 0; i < result.n_cases[GM_VERIFY_DRAG]; i++) {
@@ -162,7 +130,7 @@ static void cases_cover_every_gear_pair_and_direction(void **state)
 {
     (void)state;
     static const int wanted[GM_VERIFY_GROUPS] = {12, 36, 18, 4, 4};
-    reduced of = faithful();
+    reduced_probe of = faithful();
     gm_verify_result result = verify(&of, POINTS, 4);
     for (int g = 0; g < GM_VERIFY_GROUPS; g++) {
         int points = 0;
@@ -180,7 +148,7 @@ static void cases_cover_every_gear_pair_and_direction(void **state)
 static void a_seed_gives_the_same_points_again(void **state)
 {
     (void)state;
-    reduced of = faithful();
+    reduced_probe of = faithful();
     gm_verify_result a = verify(&of, 200, 7), b = verify(&of, 200, 7),
                      c = verify(&of, 200, 8);
     for (int g = 0; g < GM_VERIFY_GROUPS; g++) {
@@ -264,8 +232,8 @@ static void random_numbers_are_splitmix64(void **state)
 static void no_points_are_refused(void **state)
 {
     (void)state;
-    reduced of = faithful();
-    const gm_reduced_probe probe = {reduced_at, &of};
+    reduced_probe of = faithful();
+    const gm_reduced_probe probe = {reduced_probe_at, &of};
     gm_verify_result result;
     assert_int_equal(gm_verify_steady(&source.plant, &probe, 0, 1, &result, &error),
                      GM_ERR_ARGUMENT);
@@ -275,8 +243,8 @@ static void a_failing_component_ends_the_verification(void **state)
 {
     (void)state;
     for (int k = 1; k < 60; k += 7) {
-        reduced of = faithful();
-        const gm_reduced_probe probe = {reduced_at, &of};
+        reduced_probe of = faithful();
+        const gm_reduced_probe probe = {reduced_probe_at, &of};
         gm_verify_result result;
         of.fail_at = k;
         assert_int_equal(gm_verify_steady(&source.plant, &probe, 10, 1, &result, &error),
@@ -288,8 +256,8 @@ static void a_failing_component_ends_the_verification(void **state)
 static void an_answer_that_is_no_number_is_an_error(void **state)
 {
     (void)state;
-    reduced of = faithful();
-    const gm_reduced_probe probe = {reduced_at, &of};
+    reduced_probe of = faithful();
+    const gm_reduced_probe probe = {reduced_probe_at, &of};
     gm_verify_result result;
     of.loss_factor = nan("");
     assert_int_equal(gm_verify_steady(&source.plant, &probe, 10, 1, &result, &error),
@@ -302,8 +270,8 @@ static void every_failing_allocation_is_a_clean_error(void **state)
     gm_status status = GM_ERR_MEMORY;
     long k = 1;
     for (; status != GM_OK && k < 10000; k++) {
-        reduced of = faithful();
-        const gm_reduced_probe probe = {reduced_at, &of};
+        reduced_probe of = faithful();
+        const gm_reduced_probe probe = {reduced_probe_at, &of};
         gm_verify_result result;
         gm_alloc_fail_after(k);
         status = gm_verify_steady(&source.plant, &probe, 20, 1, &result, &error);
