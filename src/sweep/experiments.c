@@ -133,6 +133,19 @@ static gm_status parasitic_row(row *r)
     return status;
 }
 
+/* The path must turn as the kinematics say that gave its ratio. */
+static gm_status check_speed(const row *r, int p, double w_p)
+{
+    double found = r->result.speed[1 + p];
+    if (fabs(found - w_p) <= 1e-9 * r->plan->map->speed_max)
+        return GM_OK;
+    return gm_fail(r->error, GM_ERR_MODEL,
+                   "path '%s', gear %d: at %g rad/s of the output the path turns at %g "
+                   "rad/s, by its ratio it should at %g rad/s",
+                   r->plan->map->paths[p].name, r->point.gear[p], r->point.speed[0],
+                   found, w_p);
+}
+
 /* First T_o over the torques, then what of it belongs to zero torque becomes P and the
    rest D. */
 static gm_status load_row(row *r)
@@ -149,6 +162,8 @@ static gm_status load_row(row *r)
     for (int j = 0; j < n; j++) {
         r->point.torque[1 + p] = sigma_p * table->x[1][j] - from_neutral;
         gm_status status = solve(r);
+        if (status == GM_OK)
+            status = check_speed(r, p, w_p);
         if (status != GM_OK)
             return status;
         value[j] = sigma * (r->result.torque[0] + ratio * sigma_p * table->x[1][j]);

@@ -38,10 +38,14 @@ typedef struct gm_sweep_summary {
     double largest_ratio_deviation; /* identified against given ratios, relative */
 } gm_sweep_summary;
 
-/** Run. path: the map's file, or NULL: in memory only. On success *map is the caller's.
- *  The result does not depend on the number of threads nor on interruptions.
- *  GM_ERR_MODEL when an identified ratio differs from the given one by more than 1e-3 or
- *  in sign, or the tables would not give a unique solution (|dD/dtau| >= 1). */
+/** Run. path: the map's file, or NULL: in memory only. report and summary may be NULL.
+ *  On success *map is the caller's. The result does not depend on the number of threads
+ *  nor on interruptions; after one, the same call resumes from the journal beside path.
+ *  GM_ERR_ARGUMENT: an option is out of range or gives too many nodes.
+ *  GM_ERR_MODEL: an identified ratio differs from the given one by more than 1e-3 or in
+ *  sign, or the tables would not give a unique solution (|dD/dtau| >= 1).
+ *  GM_ERR_SOLVE: a point has no solution; it is named. GM_ERR_IO, GM_ERR_MEMORY.
+ *  Only GM_ERR_INTERRUPTED leaves a file behind. */
 GM_NODISCARD gm_status gm_sweep_run(const gm_plant *plant,
                                     const gm_sweep_options *options, const char *path,
                                     gm_sweep_report report, void *user, gm_map **map,

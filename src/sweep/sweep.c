@@ -30,7 +30,7 @@ typedef struct run {
     double started, reported; /* s */
     int phase;
     atomic_int stop;
-    int failed_job; /* the first in the list wins: the same sentence on every run */
+    int failed_job; /* of several that fail at once the first in the list is told */
     gm_status status;
     gm_error error;
 } run;

@@ -269,6 +269,9 @@ static void result(const void *self, const double *x, gm_steady_result *found)
 {
     const work *w = self;
     *found = w->exact;
+    for (int p = 0; p < w->s->plant.info.n_paths; p++)
+        if (engaged(w, p))
+            found->speed[1 + p] *= w->s->slip;
     for (int i = 0; i < w->n; i++)
         found->torque[w->flange[i]] = x[i];
 }
@@ -303,7 +306,7 @@ static const gm_plant_class synthetic_class = {
 void synthetic_init(synthetic *s, int n_paths)
 {
     static const char *const names[2][2] = {{"input", ""}, {"odd", "even"}};
-    *s = (synthetic){.load_factor = 1.0, .unsolvable_above = HUGE_VAL};
+    *s = (synthetic){.load_factor = 1.0, .slip = 1.0, .unsolvable_above = HUGE_VAL};
     s->plant = (gm_plant){.is = &synthetic_class,
                           .self = s,
                           .info = {.name = "synthetic",

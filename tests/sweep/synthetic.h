@@ -17,6 +17,7 @@
 typedef struct synthetic {
     double load_factor;      /* on D; 1 */
     double unsolvable_above; /* output speed from which no balance exists; HUGE_VAL */
+    double slip;             /* engaged paths turn by this factor too fast; 1 */
     long pause;              /* ns for every point: a slow gearset; 0 */
     gm_plant_gear gears[2][3];
     gm_plant plant; /* points back here */

@@ -75,6 +75,22 @@ static void random_points_are_within_the_promised_accuracy(void **state)
     gm_verify_result_clear(&result);
 }
 
+/* On coarse axes, since only the order of the work differs. */
+static void threads_do_not_change_the_result(void **state)
+{
+    gm_map *made[2] = {NULL, NULL};
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        gm_sweep_options options = {.speed_step = 300.0, .torque_step = 250.0};
+        options.threads = 1 + 2 * i;
+        assert_int_equal(
+            gm_sweep_run(plant, &options, NULL, NULL, NULL, &made[i], NULL, NULL), GM_OK);
+    }
+    assert_string_equal(made[0]->content_hash, made[1]->content_hash);
+    gm_map_destroy(made[0]);
+    gm_map_destroy(made[1]);
+}
+
 /* Second law: nothing turns without loss, whatever the configuration. */
 static void parasitic_losses_are_never_negative(void **state)
 {
@@ -157,6 +173,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_points_are_within_the_promised_accuracy),
+        cmocka_unit_test(threads_do_not_change_the_result),
         cmocka_unit_test(parasitic_losses_are_never_negative),
         cmocka_unit_test(the_total_loss_is_never_negative),
         cmocka_unit_test(break_away_losses_are_there),

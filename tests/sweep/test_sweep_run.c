@@ -259,6 +259,16 @@ static void a_rounded_ratio_or_none_is_accepted(void **state)
     gm_map_destroy(map);
 }
 
+static void a_path_that_does_not_turn_with_its_ratio_is_refused(void **state)
+{
+    (void)state;
+    gm_map *map = NULL;
+    source.slip = 1.0001;
+    assert_int_equal(sweep((gm_sweep_options){0}, NULL, &map, NULL), GM_ERR_MODEL);
+    assert_non_null(strstr(error.message, "by its ratio it should"));
+    assert_null(map);
+}
+
 static void a_loss_that_grows_faster_than_its_torque_is_refused(void **state)
 {
     (void)state;
@@ -322,6 +332,8 @@ int main(void)
         cmocka_unit_test_setup(a_ratio_that_disagrees_is_refused_with_both_numbers,
                                fresh),
         cmocka_unit_test_setup(a_rounded_ratio_or_none_is_accepted, fresh),
+        cmocka_unit_test_setup(a_path_that_does_not_turn_with_its_ratio_is_refused,
+                               fresh),
         cmocka_unit_test_setup(a_loss_that_grows_faster_than_its_torque_is_refused,
                                fresh),
         cmocka_unit_test_setup(a_point_without_solution_is_named, fresh),
