@@ -45,8 +45,8 @@ static const char *wrong_argument(fmi2String name, fmi2Type type, fmi2String gui
     return NULL;
 }
 
-fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType, fmi2String fmuGUID,
-                              fmi2String fmuResourceLocation,
+fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType,
+                              fmi2String fmuGUID, fmi2String fmuResourceLocation,
                               const fmi2CallbackFunctions *functions, fmi2Boolean visible,
                               fmi2Boolean loggingOn)
 {
@@ -132,7 +132,8 @@ fmi2Status fmi2SetupExperiment(fmi2Component c, fmi2Boolean toleranceDefined,
 
 fmi2Status fmi2EnterInitializationMode(fmi2Component c)
 {
-    fmi2_instance *f = fmi2_enter(c, "fmi2EnterInitializationMode", GM_PHASE_INSTANTIATED);
+    fmi2_instance *f =
+        fmi2_enter(c, "fmi2EnterInitializationMode", GM_PHASE_INSTANTIATED);
     if (!f)
         return fmi2Error;
     if (!f->run.experiment_set)
@@ -151,14 +152,17 @@ static fmi2Status report(fmi2_instance *f, const char *function)
             continue;
         fmi2_log(f, fmi2Warning, FMI2_LOG_WARNING,
                  "%s: %s.gear = %d: there is no such gear; the path keeps the gear that "
-                 "was", function, gm_model_path_name(p),
+                 "was",
+                 function, gm_model_path_name(p),
                  f->run.component.value[GM_PATH_GEAR][p].integer);
         status = fmi2Warning;
     }
     if (gm_run_map_left(&f->run)) {
-        fmi2_log(f, fmi2Warning, FMI2_LOG_WARNING,
-                 "%s: at %g s the operating point left the map; edge values are used (told "
-                 "once, see out_of_map)", function, f->run.time);
+        fmi2_log(
+            f, fmi2Warning, FMI2_LOG_WARNING,
+            "%s: at %g s the operating point left the map; edge values are used (told "
+            "once, see out_of_map)",
+            function, f->run.time);
         status = fmi2Warning;
     }
     return status;
@@ -166,7 +170,8 @@ static fmi2Status report(fmi2_instance *f, const char *function)
 
 fmi2Status fmi2ExitInitializationMode(fmi2Component c)
 {
-    fmi2_instance *f = fmi2_enter(c, "fmi2ExitInitializationMode", GM_PHASE_INITIALISATION);
+    fmi2_instance *f =
+        fmi2_enter(c, "fmi2ExitInitializationMode", GM_PHASE_INITIALISATION);
     if (!f)
         return fmi2Error;
     if (gm_run_start(gm_model_map(), &f->run))
@@ -206,17 +211,19 @@ static fmi2Status refuse_step(fmi2_instance *f, gm_verdict verdict, double t, do
                          h);
     case GM_VERDICT_TIME:
         return fmi2_fail(f, function,
-                         "the step starts at %.15g s, but the last one ended at %.15g s", t,
-                         f->run.time);
+                         "the step starts at %.15g s, but the last one ended at %.15g s",
+                         t, f->run.time);
     case GM_VERDICT_STOP:
-        return fmi2_fail(f, function,
-                         "the step from %.15g s by %g s goes beyond the stop time %.15g s",
-                         t, h, f->run.stop_time);
+        return fmi2_fail(
+            f, function,
+            "the step from %.15g s by %g s goes beyond the stop time %.15g s", t, h,
+            f->run.stop_time);
     default:
         f->run.phase = GM_PHASE_STEP_FAILED;
         fmi2_log(f, fmi2Discard, FMI2_LOG_DISCARD,
                  "fmi2DoStep: the step from %g s by %g s overflowed and was not done; "
-                 "the torques are too large", t, h);
+                 "the torques are too large",
+                 t, h);
         return fmi2Discard;
     }
 }

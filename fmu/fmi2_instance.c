@@ -9,8 +9,10 @@ static const struct {
     const char *name;
     unsigned bit;
 } categories[] = {
-    {"logStatusWarning", FMI2_LOG_WARNING}, {"logStatusDiscard", FMI2_LOG_DISCARD},
-    {"logStatusError", FMI2_LOG_ERROR},     {"logEvents", FMI2_LOG_EVENTS},
+    {"logStatusWarning", FMI2_LOG_WARNING},
+    {"logStatusDiscard", FMI2_LOG_DISCARD},
+    {"logStatusError", FMI2_LOG_ERROR},
+    {"logEvents", FMI2_LOG_EVENTS},
     {"logAll", FMI2_LOG_ALL},
 };
 enum { N_CATEGORIES = sizeof categories / sizeof *categories };
@@ -62,7 +64,8 @@ void fmi2_log(const fmi2_instance *instance, fmi2Status status, fmi2_category ca
     send(instance, status, category, text);
 }
 
-fmi2Status fmi2_fail(fmi2_instance *instance, const char *function, const char *format, ...)
+fmi2Status fmi2_fail(fmi2_instance *instance, const char *function, const char *format,
+                     ...)
 {
     char text[MESSAGE_SIZE];
     va_list arguments;
@@ -109,7 +112,8 @@ const char *fmi2_variable_name(gm_reference reference, char text[FMI2_NAME_SIZE]
 {
     const gm_variable *v = &gm_variables[reference.id];
     if (v->scope == GM_SCOPE_PATH)
-        snprintf(text, FMI2_NAME_SIZE, "%s.%s", gm_model_path_name(reference.path), v->name);
+        snprintf(text, FMI2_NAME_SIZE, "%s.%s", gm_model_path_name(reference.path),
+                 v->name);
     else
         snprintf(text, FMI2_NAME_SIZE, "%s", v->name);
     return text;

@@ -14,7 +14,8 @@
 #include "gm_run.h"
 
 #if defined(__GNUC__)
-#define FMI2_PRINTF(format_index, first) __attribute__((format(printf, format_index, first)))
+#define FMI2_PRINTF(format_index, first)                                                 \
+    __attribute__((format(printf, format_index, first)))
 #else
 #define FMI2_PRINTF(format_index, first)
 #endif

@@ -11,9 +11,10 @@ enum { PHASES_STATUS = GM_PHASE_STEP | GM_PHASE_STEP_FAILED | GM_PHASE_TERMINATE
 /* Discard: this status is not available, everything else goes on. */
 static fmi2Status not_available(fmi2_instance *f, const char *function, int kind)
 {
-    fmi2_log(f, fmi2Discard, FMI2_LOG_DISCARD,
-             "%s: status kind %d is not available: steps are never done in the background",
-             function, kind);
+    fmi2_log(
+        f, fmi2Discard, FMI2_LOG_DISCARD,
+        "%s: status kind %d is not available: steps are never done in the background",
+        function, kind);
     return fmi2Discard;
 }
 
@@ -35,14 +36,16 @@ fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind s, fmi2Real *
     return fmi2OK;
 }
 
-fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind s, fmi2Integer *value)
+fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind s,
+                                fmi2Integer *value)
 {
     fmi2_instance *f = fmi2_enter(c, "fmi2GetIntegerStatus", PHASES_STATUS);
     (void)value;
     return f ? not_available(f, "fmi2GetIntegerStatus", (int)s) : fmi2Error;
 }
 
-fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind s, fmi2Boolean *value)
+fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind s,
+                                fmi2Boolean *value)
 {
     fmi2_instance *f = fmi2_enter(c, "fmi2GetBooleanStatus", PHASES_STATUS);
     if (!f)
@@ -63,7 +66,8 @@ fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind s, fmi2Stri
 static fmi2Status not_offered(fmi2Component c, const char *function)
 {
     fmi2_instance *f = fmi2_enter(c, function, FMI2_PHASES_ANY);
-    return f ? fmi2_fail(f, function, "this FMU does not have the capability") : fmi2Error;
+    return f ? fmi2_fail(f, function, "this FMU does not have the capability")
+             : fmi2Error;
 }
 
 fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *FMUstate)
@@ -84,7 +88,8 @@ fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *FMUstate)
     return not_offered(c, "fmi2FreeFMUstate");
 }
 
-fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate FMUstate, size_t *size)
+fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate FMUstate,
+                                      size_t *size)
 {
     (void)FMUstate;
     (void)size;
@@ -112,8 +117,9 @@ fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte serializedSta
 fmi2Status fmi2GetDirectionalDerivative(fmi2Component c,
                                         const fmi2ValueReference vUnknown_ref[],
                                         size_t nUnknown,
-                                        const fmi2ValueReference vKnown_ref[], size_t nKnown,
-                                        const fmi2Real dvKnown[], fmi2Real dvUnknown[])
+                                        const fmi2ValueReference vKnown_ref[],
+                                        size_t nKnown, const fmi2Real dvKnown[],
+                                        fmi2Real dvUnknown[])
 {
     (void)vUnknown_ref;
     (void)nUnknown;

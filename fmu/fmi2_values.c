@@ -7,8 +7,9 @@
 
 static const char *type_text(gm_type carrier)
 {
-    return carrier == GM_TYPE_REAL ? "a Real" : carrier == GM_TYPE_INTEGER ? "an Integer"
-                                                                          : "a Boolean";
+    return carrier == GM_TYPE_REAL      ? "a Real"
+           : carrier == GM_TYPE_INTEGER ? "an Integer"
+                                        : "a Boolean";
 }
 
 static fmi2Status refuse_reference(fmi2_instance *f, const char *function,
@@ -31,14 +32,15 @@ static fmi2Status refuse_value(fmi2_instance *f, const char *function, gm_verdic
     fmi2_variable_name(reference, name);
     switch (verdict) {
     case GM_VERDICT_READ_ONLY:
-        return fmi2_fail(f, function, "%s is an output and cannot be set (to %g)", name, x);
-    case GM_VERDICT_PHASE:
-        return fmi2_fail(f, function, "%s cannot be set (to %g) after initialisation", name,
+        return fmi2_fail(f, function, "%s is an output and cannot be set (to %g)", name,
                          x);
+    case GM_VERDICT_PHASE:
+        return fmi2_fail(f, function, "%s cannot be set (to %g) after initialisation",
+                         name, x);
     case GM_VERDICT_RANGE:
         if (v->max < GM_FREE)
-            return fmi2_fail(f, function, "%s = %g is not within %g to %g", name, x, v->min,
-                             v->max);
+            return fmi2_fail(f, function, "%s = %g is not within %g to %g", name, x,
+                             v->min, v->max);
         return fmi2_fail(f, function, "%s = %g is smaller than %g", name, x, v->min);
     default:
         return fmi2_fail(f, function, "%s = %g is not a finite number", name, x);
@@ -130,7 +132,8 @@ static fmi2Status no_strings(fmi2Component c, const char *function, unsigned pha
     if (!f)
         return fmi2Error;
     if (nvr > 0)
-        return fmi2_fail(f, function, "value reference %u is not a String variable", vr[0]);
+        return fmi2_fail(f, function, "value reference %u is not a String variable",
+                         vr[0]);
     return fmi2OK;
 }
 
@@ -146,8 +149,8 @@ fmi2Status fmi2SetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nv
     fmi2_instance *f = enter(c, "fmi2SetReal", FMI2_PHASES_SET, nvr, vr, value);
     fmi2Status status = f ? fmi2OK : fmi2Error;
     for (size_t i = 0; i < nvr && status == fmi2OK; i++)
-        status = set_one(f, "fmi2SetReal", GM_TYPE_REAL, vr[i],
-                         (gm_value){.real = value[i]});
+        status =
+            set_one(f, "fmi2SetReal", GM_TYPE_REAL, vr[i], (gm_value){.real = value[i]});
     return status;
 }
 
@@ -209,7 +212,8 @@ fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference
     fmi2_instance *f =
         enter(c, "fmi2SetRealInputDerivatives", FMI2_PHASES_SET, nvr, vr, value);
     if (f && nvr > 0 && !order)
-        return fmi2_fail(f, "fmi2SetRealInputDerivatives", "the array of orders is missing");
+        return fmi2_fail(f, "fmi2SetRealInputDerivatives",
+                         "the array of orders is missing");
     fmi2Status status = f ? fmi2OK : fmi2Error;
     for (size_t i = 0; i < nvr && status == fmi2OK; i++)
         status = set_rate(f, vr[i], order[i], value[i]);
@@ -231,8 +235,10 @@ static fmi2Status get_rate(fmi2_instance *f, unsigned vr, int order, double *rat
     if (order == 1 &&
         gm_component_rate(gm_model_map(), &f->run.component, reference, rate))
         return fmi2OK;
-    fmi2_log(f, fmi2Discard, FMI2_LOG_DISCARD, "%s: the derivative of order %d of %s is "
-             "not available", function, order, name);
+    fmi2_log(f, fmi2Discard, FMI2_LOG_DISCARD,
+             "%s: the derivative of order %d of %s is "
+             "not available",
+             function, order, name);
     return fmi2Discard;
 }
 

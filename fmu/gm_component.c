@@ -35,7 +35,8 @@ void gm_component_reset(const gm_reduced_map *map, gm_component *c)
                 c->value[id][p].integer = (int)gm_variables[id].start;
     for (int p = 0; p < map->n_paths; p++) {
         gm_real torque = map->path[p].sync_torque;
-        c->value[GM_PATH_SYNC_TORQUE][p].real = torque < GM_INFINITE ? torque : GM_INFINITE;
+        c->value[GM_PATH_SYNC_TORQUE][p].real =
+            torque < GM_INFINITE ? torque : GM_INFINITE;
     }
 }
 

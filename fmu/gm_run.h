@@ -13,7 +13,7 @@
 typedef enum gm_phase {
     GM_PHASE_INSTANTIATED = 1,
     GM_PHASE_INITIALISATION = 2,
-    GM_PHASE_STEP = 4,       /* a communication point: the last step is complete */
+    GM_PHASE_STEP = 4,        /* a communication point: the last step is complete */
     GM_PHASE_STEP_FAILED = 8, /* the last step was not done */
     GM_PHASE_TERMINATED = 16,
     GM_PHASE_ERROR = 32
@@ -22,13 +22,13 @@ typedef enum gm_phase {
 typedef struct gm_run {
     gm_component component;
     gm_phase phase;
-    bool experiment_set;      /* start time given */
+    bool experiment_set; /* start time given */
     bool stop_defined;
-    gm_real time, stop_time;  /* s */
-    gm_real last_step;        /* s, 0 before the first */
-    bool map_left;            /* leaving the map was reported */
-    bool gear_reported[GM_MAX_PATHS];  /* the refused command was reported, */
-    int reported_gear[GM_MAX_PATHS];   /* and this is which */
+    gm_real time, stop_time;          /* s */
+    gm_real last_step;                /* s, 0 before the first */
+    bool map_left;                    /* leaving the map was reported */
+    bool gear_reported[GM_MAX_PATHS]; /* the refused command was reported, */
+    int reported_gear[GM_MAX_PATHS];  /* and this is which */
 } gm_run;
 
 typedef enum gm_verdict {

@@ -2,16 +2,16 @@
 #include "gm_variables.h"
 
 const gm_variable gm_variables[] = {
-#define GM_VAR(id, scope_, name_, type_, causality_, variability_, initial_, unit, start_,  \
-               min_, max_, nominal, description)                                           \
-    [GM_##id] = {.name = name_,                                                            \
-                 .scope = GM_SCOPE_##scope_,                                               \
-                 .type = GM_TYPE_##type_,                                                  \
-                 .causality = GM_CAUSALITY_##causality_,                                   \
-                 .variability = GM_VARIABILITY_##variability_,                             \
-                 .initial = GM_INITIAL_##initial_,                                         \
-                 .start = start_,                                                          \
-                 .min = min_,                                                              \
+#define GM_VAR(id, scope_, name_, type_, causality_, variability_, initial_, unit,       \
+               start_, min_, max_, nominal, description)                                 \
+    [GM_##id] = {.name = name_,                                                          \
+                 .scope = GM_SCOPE_##scope_,                                             \
+                 .type = GM_TYPE_##type_,                                                \
+                 .causality = GM_CAUSALITY_##causality_,                                 \
+                 .variability = GM_VARIABILITY_##variability_,                           \
+                 .initial = GM_INITIAL_##initial_,                                       \
+                 .start = start_,                                                        \
+                 .min = min_,                                                            \
                  .max = max_},
 #include "gm_vars.def"
 #undef GM_VAR

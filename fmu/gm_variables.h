@@ -10,13 +10,13 @@
 
 #include "gm_real.h"
 
-#define GM_FREE 1e300      /* no limit on this side */
-#define GM_INFINITE 1e30   /* a cone capacity from here on engages at once */
-#define GM_SLOTS 8         /* value references per entry of the list */
+#define GM_FREE 1e300    /* no limit on this side */
+#define GM_INFINITE 1e30 /* a cone capacity from here on engages at once */
+#define GM_SLOTS 8       /* value references per entry of the list */
 
 typedef enum gm_variable_id {
-#define GM_VAR(id, scope, name, type, causality, variability, initial, unit, start, min,   \
-               max, nominal, description)                                                  \
+#define GM_VAR(id, scope, name, type, causality, variability, initial, unit, start, min, \
+               max, nominal, description)                                                \
     GM_##id,
 #include "gm_vars.def"
 #undef GM_VAR

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * A growing text. A failed allocation is remembered, so that a writer of many lines checks
- * once, at its end. Numbers do not depend on the locale.
+ * A growing text. A failed allocation is remembered, so that a writer of many lines
+ * checks once, at its end. Numbers do not depend on the locale.
  */
 #ifndef BUFFER_H
 #define BUFFER_H
@@ -12,7 +12,7 @@
 #include <stddef.h>
 
 typedef struct gm_buffer {
-    char *data;  /* [size] and a terminating zero; NULL while empty */
+    char *data; /* [size] and a terminating zero; NULL while empty */
     size_t size, room;
     bool failed; /* memory ran out: the text is not complete */
 } gm_buffer;

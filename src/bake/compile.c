@@ -46,9 +46,11 @@ static bool use_environment(const char *cc, gm_compiler *compiler, gm_error *err
         snprintf(compiler->arguments, sizeof compiler->arguments, "%s", cc + skip + n) >=
             (int)sizeof compiler->arguments ||
         !find_program(name, compiler->path, sizeof compiler->path)) {
-        (void)gm_fail(error, GM_ERR_TOOL,
-                      "the C compiler %s, named by the environment variable CC, is not an "
-                      "executable program", cc);
+        (void)gm_fail(
+            error, GM_ERR_TOOL,
+            "the C compiler %s, named by the environment variable CC, is not an "
+            "executable program",
+            cc);
         return false;
     }
     return true;
@@ -71,9 +73,10 @@ gm_status gm_compiler_find(const char *wanted, gm_compiler *compiler, gm_error *
         while (i < 3 && !find_program(usual[i], found.path, sizeof found.path))
             i++;
         if (i == 3)
-            return gm_fail(error, GM_ERR_TOOL,
-                           "a C compiler is needed to build the FMU's library, and none of "
-                           "cc, gcc, clang is in the path; install one or name it with CC");
+            return gm_fail(
+                error, GM_ERR_TOOL,
+                "a C compiler is needed to build the FMU's library, and none of "
+                "cc, gcc, clang is in the path; install one or name it with CC");
     }
     *compiler = found;
     return GM_OK;
@@ -82,15 +85,24 @@ gm_status gm_compiler_find(const char *wanted, gm_compiler *compiler, gm_error *
 /* The same bits everywhere (-ffp-contract=off), only the FMI functions visible, nothing
  * of this machine in the result. */
 static const char *const flags[] = {
-    "-std=c99", "-O2", "-ffp-contract=off", "-fPIC", "-shared", "-fvisibility=hidden",
-    "-I.", "-w", "-s", "-Wl,--build-id=none", "-Wl,--no-undefined",
+    "-std=c99",
+    "-O2",
+    "-ffp-contract=off",
+    "-fPIC",
+    "-shared",
+    "-fvisibility=hidden",
+    "-I.",
+    "-w",
+    "-s",
+    "-Wl,--build-id=none",
+    "-Wl,--no-undefined",
 };
 enum { N_FLAGS = sizeof flags / sizeof *flags, MOST_ARGUMENTS = 32 };
 
 /* Command line for execv; words is scratch that it points into. */
-static void fill_arguments(const gm_compiler *compiler, const char *map_prefix, char *words,
-                           int n, const char *const *sources, const char *output,
-                           const char **argument)
+static void fill_arguments(const gm_compiler *compiler, const char *map_prefix,
+                           char *words, int n, const char *const *sources,
+                           const char *output, const char **argument)
 {
     int k = 0;
     char *rest = NULL;

@@ -67,9 +67,9 @@ static void range(gm_buffer *page, const gm_map *map)
     number(page, "input speeds up to ", map->speed_max, 6, " rad/s, ");
     number(page, "input torques up to ", map->torque_max, 6, " N.m and ");
     number(page, "an oil temperature of ", map->oil_temperature, 6, " K. ");
-    gm_buffer_text(page,
-                   "Outside, edge values are used, <code>out_of_map</code> is true, and a "
-                   "warning is given once.</p>\n<h2>Inertia</h2>\n<p>");
+    gm_buffer_text(
+        page, "Outside, edge values are used, <code>out_of_map</code> is true, and a "
+              "warning is given once.</p>\n<h2>Inertia</h2>\n<p>");
     number(page, "output ", map->inertia_output, 6, " kg.m2");
     for (int p = 0; p < map->n_paths; p++) {
         gm_buffer_text(page, ", input flange of path %s", map->paths[p].name);
@@ -89,7 +89,8 @@ void gm_documentation_write(const gm_map *map, const char *guid, gm_buffer *buff
     gm_buffer_text(
         buffer,
         "</h1>\n<p>A reduced gearset: ratios, inertias and losses from tables that were "
-        "computed with a detailed model. Torques are inputs, speeds are outputs, at every "
+        "computed with a detailed model. Torques are inputs, speeds are outputs, at "
+        "every "
         "flange; torques count positive into the gearset. Engaged paths turn with the "
         "output. Friction holds at standstill without creep. Any communication step is "
         "accepted.</p>\n");

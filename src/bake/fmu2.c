@@ -184,7 +184,8 @@ static void remove_folder(const char *folder)
     struct dirent *entry;
     char path[4096];
     while (directory && (entry = readdir(directory)) != NULL)
-        if (snprintf(path, sizeof path, "%s/%s", folder, entry->d_name) < (int)sizeof path)
+        if (snprintf(path, sizeof path, "%s/%s", folder, entry->d_name) <
+            (int)sizeof path)
             (void)unlink(path); /* "." and ".." are refused by the system */
     if (directory)
         closedir(directory);
@@ -217,8 +218,8 @@ static gm_status add_library(job *j)
 {
     const char *base = getenv("TMPDIR");
     char folder[2048];
-    if (snprintf(folder, sizeof folder, "%s/gearmap-XXXXXX", base && *base ? base : "/tmp") >=
-            (int)sizeof folder ||
+    if (snprintf(folder, sizeof folder, "%s/gearmap-XXXXXX",
+                 base && *base ? base : "/tmp") >= (int)sizeof folder ||
         !mkdtemp(folder))
         return gm_fail(j->error, GM_ERR_IO, "%s: no temporary folder can be made: %s",
                        folder, strerror(errno));
@@ -290,8 +291,8 @@ static void summarise(const job *j, gm_bake_summary *summary)
     snprintf(summary->guid, sizeof summary->guid, "%s", j->guid);
 }
 
-gm_status gm_bake_fmu2(const gm_map *map, const gm_bake_options *options, const char *path,
-                       gm_bake_summary *summary, gm_error *error)
+gm_status gm_bake_fmu2(const gm_map *map, const gm_bake_options *options,
+                       const char *path, gm_bake_summary *summary, gm_error *error)
 {
     job j = {.map = map, .options = options, .target = path, .error = error};
     gm_map_view *view = NULL;

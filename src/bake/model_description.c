@@ -46,7 +46,8 @@ static void foreign_text(xml *x, const char *name, const char *value)
     bool utf8 = xmlCheckUTF8(BAD_CAST value) != 0;
     snprintf(clean, sizeof clean, "%s", value);
     for (char *c = clean; *c; c++)
-        if ((unsigned char)*c < 0x20 || *c == 0x7f || (!utf8 && (unsigned char)*c >= 0x80))
+        if ((unsigned char)*c < 0x20 || *c == 0x7f ||
+            (!utf8 && (unsigned char)*c >= 0x80))
             *c = '?';
     text(x, name, clean);
 }
@@ -344,7 +345,8 @@ static void write_type(xml *x, scalar s, const variable *v)
 static void write_variables(xml *x)
 {
     static const char *const causality[] = {"input", "output", "parameter"};
-    static const char *const variability[] = {"continuous", "discrete", "fixed", "tunable"};
+    static const char *const variability[] = {"continuous", "discrete", "fixed",
+                                              "tunable"};
     static const char *const initial[] = {NULL, "exact", "calculated"};
     char name[80];
     start(x, "ModelVariables");
@@ -433,7 +435,8 @@ gm_status gm_model_description_write(const gm_map *map,
     bool failed = !x.writer || x.failed;
     xmlFreeTextWriter(x.writer); /* flushes */
     if (!failed)
-        gm_buffer_bytes(buffer, xmlBufferContent(memory), (size_t)xmlBufferLength(memory));
+        gm_buffer_bytes(buffer, xmlBufferContent(memory),
+                        (size_t)xmlBufferLength(memory));
     xmlBufferFree(memory);
     if (failed || buffer->failed)
         return gm_fail(error, GM_ERR_MEMORY, "no memory to write modelDescription.xml");

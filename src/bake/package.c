@@ -43,7 +43,8 @@ gm_status gm_package_add_file(gm_package *package, const char *name, const char 
     char block[8192];
     size_t n;
     if (!file)
-        return gm_fail(error, GM_ERR_IO, "%s: cannot be opened: %s", path, strerror(errno));
+        return gm_fail(error, GM_ERR_IO, "%s: cannot be opened: %s", path,
+                       strerror(errno));
     while ((n = fread(block, 1, sizeof block, file)) > 0)
         gm_buffer_bytes(&content, block, n);
     int bad = ferror(file);
@@ -61,8 +62,9 @@ static bool has_ending(const char *name, const char *ending)
     return n > m && strcmp(name + n - m, ending) == 0;
 }
 
-static gm_status add_if_source(gm_package *package, const char *prefix, const char *folder,
-                               const char *name, int *found, gm_error *error)
+static gm_status add_if_source(gm_package *package, const char *prefix,
+                               const char *folder, const char *name, int *found,
+                               gm_error *error)
 {
     char path[4096], entry[512];
     struct stat info;
@@ -77,17 +79,18 @@ static gm_status add_if_source(gm_package *package, const char *prefix, const ch
     return gm_package_add_file(package, entry, path, error);
 }
 
-gm_status gm_package_add_folder(gm_package *package, const char *prefix, const char *folder,
-                                gm_error *error)
+gm_status gm_package_add_folder(gm_package *package, const char *prefix,
+                                const char *folder, gm_error *error)
 {
     DIR *directory = opendir(folder);
     struct dirent *entry;
     gm_status status = GM_OK;
     int found = 0;
     if (!directory)
-        return gm_fail(error, GM_ERR_IO,
-                       "%s: the folder with the component's C sources cannot be opened: %s",
-                       folder, strerror(errno));
+        return gm_fail(
+            error, GM_ERR_IO,
+            "%s: the folder with the component's C sources cannot be opened: %s", folder,
+            strerror(errno));
     while (status == GM_OK && (entry = readdir(directory)) != NULL)
         status = add_if_source(package, prefix, folder, entry->d_name, &found, error);
     closedir(directory);
@@ -156,7 +159,8 @@ static bool add_entry(zip_t *zip, const gm_package_file *file)
     zip_uint64_t i = (zip_uint64_t)index;
     return zip_set_file_compression(zip, i, ZIP_CM_DEFLATE, 9) == 0 &&
            zip_file_set_dostime(zip, i, ZIP_TIME, ZIP_DATE, 0) == 0 &&
-           zip_file_set_external_attributes(zip, i, 0, ZIP_OPSYS_UNIX, 0100644u << 16) == 0;
+           zip_file_set_external_attributes(zip, i, 0, ZIP_OPSYS_UNIX, 0100644u << 16) ==
+               0;
 }
 
 gm_status gm_package_write(const gm_package *package, const char *path, gm_error *error)

@@ -11,19 +11,19 @@
 #include <string.h>
 
 const variable gm_bake_variables[] = {
-#define GM_VAR(id, scope_, name_, type_, causality_, variability_, initial_, unit_, start_, \
-               min_, max_, nominal_, description_)                                         \
-    [VARIABLE_##id] = {.name = name_,                                                      \
-                       .scope = SCOPE_##scope_,                                            \
-                       .type = TYPE_##type_,                                               \
-                       .causality = CAUSALITY_##causality_,                                \
-                       .variability = VARIABILITY_##variability_,                          \
-                       .initial = INITIAL_##initial_,                                      \
-                       .unit = unit_,                                                      \
-                       .start = start_,                                                    \
-                       .min = min_,                                                        \
-                       .max = max_,                                                        \
-                       .nominal = nominal_,                                                \
+#define GM_VAR(id, scope_, name_, type_, causality_, variability_, initial_, unit_,      \
+               start_, min_, max_, nominal_, description_)                               \
+    [VARIABLE_##id] = {.name = name_,                                                    \
+                       .scope = SCOPE_##scope_,                                          \
+                       .type = TYPE_##type_,                                             \
+                       .causality = CAUSALITY_##causality_,                              \
+                       .variability = VARIABILITY_##variability_,                        \
+                       .initial = INITIAL_##initial_,                                    \
+                       .unit = unit_,                                                    \
+                       .start = start_,                                                  \
+                       .min = min_,                                                      \
+                       .max = max_,                                                      \
+                       .nominal = nominal_,                                              \
                        .description = description_},
 #include "core/gm_vars.def"
 #undef GM_VAR
@@ -104,12 +104,27 @@ bool gm_bake_depends_initially(scalar of, scalar on)
 static const unit_type units[] = {
     {"1", "Factor", "Factor", 0, 0, 0, 0, 0, {NULL, 0.0, 0.0}},
     {"J", "Energy", "Energy", 1, 2, -2, 0, 0, {"kJ", 1e-3, 0.0}},
-    {"K", "Temperature", "ThermodynamicTemperature", 0, 0, 0, 1, 0, {"degC", 1.0, -273.15}},
+    {"K",
+     "Temperature",
+     "ThermodynamicTemperature",
+     0,
+     0,
+     0,
+     1,
+     0,
+     {"degC", 1.0, -273.15}},
     {"N.m", "Torque", "Torque", 1, 2, -2, 0, 0, {NULL, 0.0, 0.0}},
     {"W", "Power", "Power", 1, 2, -3, 0, 0, {"kW", 1e-3, 0.0}},
     {"rad", "Angle", "Angle", 0, 0, 0, 0, 1, {"deg", DEGREES, 0.0}},
     {"rad/s", "AngularVelocity", "AngularVelocity", 0, 0, -1, 0, 1, {"rpm", RPM, 0.0}},
-    {"rad/s2", "AngularAcceleration", "AngularAcceleration", 0, 0, -2, 0, 1,
+    {"rad/s2",
+     "AngularAcceleration",
+     "AngularAcceleration",
+     0,
+     0,
+     -2,
+     0,
+     1,
      {NULL, 0.0, 0.0}},
 };
 enum { N_UNITS = sizeof units / sizeof *units };

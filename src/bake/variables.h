@@ -13,12 +13,17 @@
 enum { SCOPE_ALL, SCOPE_PATH };
 enum { TYPE_REAL, TYPE_INTEGER, TYPE_BOOLEAN, TYPE_STATE, TYPE_FIDELITY };
 enum { CAUSALITY_INPUT, CAUSALITY_OUTPUT, CAUSALITY_PARAMETER };
-enum { VARIABILITY_CONTINUOUS, VARIABILITY_DISCRETE, VARIABILITY_FIXED, VARIABILITY_TUNABLE };
+enum {
+    VARIABILITY_CONTINUOUS,
+    VARIABILITY_DISCRETE,
+    VARIABILITY_FIXED,
+    VARIABILITY_TUNABLE
+};
 enum { INITIAL_NONE, INITIAL_EXACT, INITIAL_CALCULATED };
 
 typedef enum variable_id {
-#define GM_VAR(id, scope, name, type, causality, variability, initial, unit, start, min,   \
-               max, nominal, description)                                                  \
+#define GM_VAR(id, scope, name, type, causality, variability, initial, unit, start, min, \
+               max, nominal, description)                                                \
     VARIABLE_##id,
 #include "core/gm_vars.def"
 #undef GM_VAR
@@ -36,7 +41,8 @@ typedef struct variable {
 /** [N_VARIABLES], in the order of the list. */
 extern const variable gm_bake_variables[];
 
-/** One entry of the list of scalar variables: list order, a path's copies side by side. */
+/** One entry of the list of scalar variables: list order, a path's copies side by side.
+ */
 typedef struct scalar {
     variable_id id;
     int path; /* -1 for variables that belong to no path */
@@ -61,7 +67,7 @@ typedef struct display_unit {
 /** One unit and the type of the variables that have it. */
 typedef struct unit_type {
     const char *unit, *type, *quantity;
-    int kg, m, s, K, rad;       /* exponents of the base units */
+    int kg, m, s, K, rad; /* exponents of the base units */
     display_unit display; /* name NULL: none */
 } unit_type;
 

@@ -48,8 +48,8 @@ static gm_status instantiate(gm_fmu *fmu, gm_error *error)
                                  fmu->description.guid, place, &fmu->callbacks, 0, 0);
     if (fmu->component)
         return GM_OK;
-    return gm_fail(error, GM_ERR_TOOL, "%s: the FMU cannot be instantiated%s%s", fmu->path,
-                   fmu->message[0] ? ": " : "", fmu->message);
+    return gm_fail(error, GM_ERR_TOOL, "%s: the FMU cannot be instantiated%s%s",
+                   fmu->path, fmu->message[0] ? ": " : "", fmu->message);
 }
 
 static gm_status open_steps(gm_fmu *fmu, gm_error *error)
@@ -171,6 +171,6 @@ gm_status gm_fmu_start(gm_fmu *fmu, gm_error *error)
 
 gm_status gm_fmu_step(gm_fmu *fmu, double t, double h, gm_error *error)
 {
-    return checked(fmu, "fmi2DoStep",
-                   fmu->library.DoStep(fmu->component, t, h, fmi2True), error);
+    return checked(fmu, "fmi2DoStep", fmu->library.DoStep(fmu->component, t, h, fmi2True),
+                   error);
 }

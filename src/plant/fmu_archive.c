@@ -47,7 +47,8 @@ static bool make_folders(char *path, size_t known)
 }
 
 /* Copy an entry into a file; false when either fails or the size is not as announced. */
-static bool copy_entry(zip_t *zip, zip_uint64_t index, zip_uint64_t size, const char *path)
+static bool copy_entry(zip_t *zip, zip_uint64_t index, zip_uint64_t size,
+                       const char *path)
 {
     char block[16384];
     zip_int64_t n = 0;
@@ -87,8 +88,8 @@ static gm_status unpack_entry(zip_t *zip, zip_uint64_t index, const char *archiv
                        "%s: the archive's entry %.200s would leave its folder", archive,
                        info.name);
     if (info.size > MOST_BYTES || (*total += info.size) > MOST_BYTES)
-        return gm_fail(error, GM_ERR_FORMAT, "%s: the archive unpacks to more than 512 MB",
-                       archive);
+        return gm_fail(error, GM_ERR_FORMAT,
+                       "%s: the archive unpacks to more than 512 MB", archive);
     if (!make_folders(path, strlen(folder)))
         return gm_fail(error, GM_ERR_IO, "%s: cannot be made: %s", path, strerror(errno));
     if (path[strlen(path) - 1] == '/' || copy_entry(zip, index, info.size, path))
@@ -120,13 +121,14 @@ gm_status gm_fmu_unpack(const char *path, char folder[FMU_FOLDER_SIZE], gm_error
         return gm_fail(error, GM_ERR_IO, "%s: cannot be read: %s", path, strerror(errno));
     zip_t *zip = zip_open(path, ZIP_RDONLY, &code);
     if (!zip)
-        return gm_fail(error, GM_ERR_FORMAT, "%s: is not an FMU: not a zip archive", path);
+        return gm_fail(error, GM_ERR_FORMAT, "%s: is not an FMU: not a zip archive",
+                       path);
     gm_status status = GM_OK;
     if (snprintf(made, sizeof made, "%s/gearmap-XXXXXX", base && *base ? base : "/tmp") >=
             (int)sizeof made ||
         !mkdtemp(made))
-        status = gm_fail(error, GM_ERR_IO, "%s: no temporary folder can be made: %s", made,
-                         strerror(errno));
+        status = gm_fail(error, GM_ERR_IO, "%s: no temporary folder can be made: %s",
+                         made, strerror(errno));
     if (status == GM_OK) {
         status = unpack_all(zip, path, made, error);
         if (status == GM_OK)

@@ -50,7 +50,8 @@ static gm_status read_variable(xmlNode *node, const char *archive, fmu_variable 
         return GM_OK;
     return gm_fail(error, GM_ERR_FORMAT,
                    "%s: modelDescription.xml, line %ld: a variable without a name or a "
-                   "value reference", archive, xmlGetLineNo(node));
+                   "value reference",
+                   archive, xmlGetLineNo(node));
 }
 
 static int compare(const void *a, const void *b)
@@ -65,11 +66,11 @@ static gm_status read_variables(xmlNode *list, const char *archive, fmu_descript
     gm_status status = GM_OK;
     d->variables = gm_calloc(n, sizeof *d->variables);
     if (!d->variables)
-        return gm_fail(error, GM_ERR_MEMORY, "no memory for the variables of %s", archive);
+        return gm_fail(error, GM_ERR_MEMORY, "no memory for the variables of %s",
+                       archive);
     for (xmlNode *node = list->children; node && status == GM_OK; node = node->next)
         if (node->type == XML_ELEMENT_NODE)
-            status =
-                read_variable(node, archive, &d->variables[d->n_variables++], error);
+            status = read_variable(node, archive, &d->variables[d->n_variables++], error);
     if (status == GM_OK && d->n_variables > 1)
         qsort(d->variables, (size_t)d->n_variables, sizeof *d->variables, compare);
     return status;
@@ -79,7 +80,8 @@ static gm_status read_variables(xmlNode *list, const char *archive, fmu_descript
 static bool is_identifier(const char *text)
 {
     return text && *text &&
-           strspn(text, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") ==
+           strspn(text,
+                  "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") ==
                strlen(text);
 }
 
@@ -120,15 +122,15 @@ gm_status gm_fmu_description_read(const char *path, const char *archive,
     if (!parser)
         return gm_fail(error, GM_ERR_MEMORY, "no memory to read %s", archive);
     parser->sax->serror = keep_quiet;
-    xmlDoc *document = xmlCtxtReadFile(parser, path, NULL,
-                                       XML_PARSE_NONET | XML_PARSE_NOERROR |
-                                           XML_PARSE_NOWARNING);
+    xmlDoc *document = xmlCtxtReadFile(
+        parser, path, NULL, XML_PARSE_NONET | XML_PARSE_NOERROR | XML_PARSE_NOWARNING);
     if (document)
         status = read_root(xmlDocGetRootElement(document), archive, &d, error);
     else
-        status = gm_fail(error, GM_ERR_FORMAT,
-                         "%s: modelDescription.xml is missing or not well-formed (line %d)",
-                         archive, parser->lastError.line);
+        status =
+            gm_fail(error, GM_ERR_FORMAT,
+                    "%s: modelDescription.xml is missing or not well-formed (line %d)",
+                    archive, parser->lastError.line);
     xmlFreeDoc(document);
     xmlFreeParserCtxt(parser);
     if (status == GM_OK)

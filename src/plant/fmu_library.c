@@ -14,7 +14,8 @@ static int find(void *handle, const char *name, void *function, size_t size)
     return symbol != NULL;
 }
 
-static gm_status find_functions(const char *archive, fmu_library *library, gm_error *error)
+static gm_status find_functions(const char *archive, fmu_library *library,
+                                gm_error *error)
 {
     const char *missing = NULL;
 #define FMU_FIND(name)                                                                   \
@@ -33,11 +34,13 @@ gm_status gm_fmu_library_load(const char *folder, const char *identifier,
 {
     char path[4096];
     fmu_library loaded = {0};
-    if (snprintf(path, sizeof path, "%s/binaries/" GM_FMI2_PLATFORM "/%s" GM_LIBRARY_ENDING, folder,
+    if (snprintf(path, sizeof path,
+                 "%s/binaries/" GM_FMI2_PLATFORM "/%s" GM_LIBRARY_ENDING, folder,
                  identifier) >= (int)sizeof path ||
         access(path, R_OK) != 0)
         return gm_fail(error, GM_ERR_FORMAT,
-                       "%s: the FMU has no library for this platform (" GM_FMI2_PLATFORM ")",
+                       "%s: the FMU has no library for this platform (" GM_FMI2_PLATFORM
+                       ")",
                        archive);
     loaded.handle = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     if (!loaded.handle)

@@ -35,7 +35,7 @@ static double value_of(const gm_table_key *key, double x, double y, double z)
     case GM_DRAG:
         return sign * (0.2 + 0.001 * x);
     case GM_LINE_JUMP:
-        return 0.05;
+        return key->path == 0 ? 0.05 : 0.03;
     case GM_COUPLING:
         return 0.0005 * x;
     default:
@@ -72,7 +72,7 @@ static void add_path(gm_map *map, int p)
             key.direction[0] = d;
             add(map, key, 2, n_load, load);
             key.symbol = GM_LINE_JUMP;
-            if (key.gear[p] == 3)
+            if (key.gear[p] > 1)
                 add(map, key, 1, &n_free[1], line);
         }
     for (int i = 0; i < 4; i++) {
@@ -125,7 +125,8 @@ static void set_paths(gm_map *map)
     gm_error error;
     for (int p = 0; p < map->n_paths; p++) {
         bool one = map->n_paths == 1;
-        must(gm_map_set_path(map, p, one ? "input" : names[p], one ? 1 : 2, &error), &error);
+        must(gm_map_set_path(map, p, one ? "input" : names[p], one ? 1 : 2, &error),
+             &error);
         map->paths[p].inertia = 0.01 + 0.002 * p;
         map->paths[p].sync_torque = one ? HUGE_VAL : 30.0 + 10.0 * p;
     }
@@ -156,7 +157,7 @@ gm_map *example_map(int n_paths)
     map->speed_max = 1500.0;
     map->torque_max = 400.0;
     map->oil_temperature = 353.15;
-    map->inertia_output = 0.1;
+    map->inertia_output = 20.0;
     set_paths(map);
     for (int p = 0; p < n_paths; p++)
         add_path(map, p);

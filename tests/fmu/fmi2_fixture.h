@@ -16,7 +16,8 @@ typedef struct host {
     char category[64], text[512], instance[64];
 } host;
 
-/** Blocks taken and not given back, and all taken, by callbacks of this thread's hosts. */
+/** Blocks taken and not given back, and all taken, by callbacks of this thread's hosts.
+ */
 int fixture_blocks(void);
 int fixture_allocations(void);
 /** The next allocation fails. */

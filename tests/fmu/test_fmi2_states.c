@@ -14,7 +14,14 @@
 
 /* ---- every function in every state ---- */
 
-typedef enum place { INSTANTIATED, INITIALISATION, STEP, FAILED, TERMINATED, BROKEN } place;
+typedef enum place {
+    INSTANTIATED,
+    INITIALISATION,
+    STEP,
+    FAILED,
+    TERMINATED,
+    BROKEN
+} place;
 enum { PLACES = BROKEN + 1 };
 
 /* An instance in a given state. */
@@ -127,7 +134,8 @@ static void each_function_is_allowed_in_its_states_only(void **state)
                 fail_msg("%s in state %d: %d, %s", calls[i].name, where, status, h.text);
             if (calls[i].allowed[where] == '-') {
                 if (status != fmi2Error || !strstr(h.text, "not allowed"))
-                    fail_msg("%s in state %d: %d, %s", calls[i].name, where, status, h.text);
+                    fail_msg("%s in state %d: %d, %s", calls[i].name, where, status,
+                             h.text);
                 assert_string_equal(h.category, "logStatusError");
                 assert_non_null(strstr(h.text, calls[i].name));
             }
@@ -167,7 +175,8 @@ static void an_instance_is_usable_again_after_reset(void **state)
 
 /* ---- instantiation ---- */
 
-static fmi2Component instantiate(host *h, const char *name, fmi2Type type, const char *guid)
+static fmi2Component instantiate(host *h, const char *name, fmi2Type type,
+                                 const char *guid)
 {
     host_init(h);
     return fmi2Instantiate(name, type, guid, "", &h->callbacks, fmi2False, fmi2False);
@@ -232,7 +241,8 @@ static void experiments_need_finite_ordered_times(void **state)
     host h;
     (void)state;
     fmi2Component c = host_instantiate(&h);
-    assert_refused(&h, fmi2SetupExperiment(c, 0, 0, (double)NAN, 0, 0), "start time", NULL);
+    assert_refused(&h, fmi2SetupExperiment(c, 0, 0, (double)NAN, 0, 0), "start time",
+                   NULL);
     assert_int_equal(fmi2Reset(c), fmi2OK);
     assert_refused(&h, fmi2SetupExperiment(c, 0, 0, 5, 1, 4), "stop time 4", NULL);
     fmi2FreeInstance(c);

@@ -150,7 +150,8 @@ static void wrong_input_derivatives_are_refused(void **state)
     fmi2Component c = host_start(&h);
     assert_int_equal(fmi2SetRealInputDerivatives(c, &oil, 1, &(int){1}, &(double){1}),
                      fmi2OK);
-    assert_refused(&h, fmi2SetRealInputDerivatives(c, &torque, 1, &(int){2}, &(double){1}),
+    assert_refused(&h,
+                   fmi2SetRealInputDerivatives(c, &torque, 1, &(int){2}, &(double){1}),
                    "odd.tau", "order 2", NULL);
     fmi2FreeInstance(c);
     c = host_start(&h);
@@ -159,7 +160,8 @@ static void wrong_input_derivatives_are_refused(void **state)
         "finite", NULL);
     fmi2FreeInstance(c);
     c = host_start(&h);
-    assert_refused(&h, fmi2SetRealInputDerivatives(c, &output, 1, &(int){1}, &(double){1}),
+    assert_refused(&h,
+                   fmi2SetRealInputDerivatives(c, &output, 1, &(int){1}, &(double){1}),
                    "not an input", NULL);
     fmi2FreeInstance(c);
 }

@@ -80,7 +80,8 @@ static void wrong_types_are_refused(void **state)
     unsigned real = reference(GM_PATH_TAU, 1), integer = reference(GM_PATH_GEAR, 1);
     (void)state;
     fmi2Component c = host_initialise(&h);
-    assert_refused(&h, fmi2GetInteger(c, &real, 1, &(int){0}), "even.tau", "Integer", NULL);
+    assert_refused(&h, fmi2GetInteger(c, &real, 1, &(int){0}), "even.tau", "Integer",
+                   NULL);
     assert_refused(&h, fmi2GetReal(c, &integer, 1, &(double){0}), "even.gear", NULL);
     assert_refused(&h, fmi2GetBoolean(c, &integer, 1, &(int){0}), "Boolean", NULL);
     assert_refused(&h, fmi2GetString(c, &real, 1, &text), "String", NULL);
