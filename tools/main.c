@@ -5,6 +5,7 @@
 #include "commands.h"
 
 #include "base/text.h"
+#include "model/gm_description.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -85,10 +86,19 @@ static int run_command(const char *name, int argc, char **argv)
     return command->run(&arguments);
 }
 
+static void write_text(void *out, const char *text)
+{
+    fputs(text, out);
+}
+
 static int help(int argc, char **argv)
 {
     if (argc == 0) {
         print_overview(stdout);
+        return GM_EXIT_DONE;
+    }
+    if (strcmp(argv[0], "format") == 0) {
+        gm_description_help(write_text, stdout);
         return GM_EXIT_DONE;
     }
     const gm_command *command = find_command(argv[0]);

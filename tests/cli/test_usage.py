@@ -49,6 +49,14 @@ def test_every_option_in_the_help_is_accepted(command):
         assert "has no option" not in done.stderr
 
 
+def test_help_of_the_description_format_has_every_key_of_the_example():
+    text = succeeds("help", "format").stdout
+    keys = set(re.findall(r"\b([a-z][a-z0-9]*(?:_[A-Za-z0-9]+)+):", EXAMPLE.read_text()))
+    units = {k for k in keys if k.endswith(("_mm", "_deg", "_Nm", "_kgm2", "_mm2_s"))}
+    assert len(units) > 10
+    assert not [k for k in sorted(units) if k not in text]
+
+
 def test_quantities_name_their_unit():
     text = succeeds("sweep", "--help").stdout
     assert "--speed-step SPEED" in text and "[rpm]" in text
