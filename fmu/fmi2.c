@@ -147,6 +147,8 @@ fmi2Status fmi2EnterInitializationMode(fmi2Component c)
 static fmi2Status report(fmi2_instance *f, const char *function)
 {
     fmi2Status status = fmi2OK;
+    if (gm_run_is_quiet(&f->run))
+        return fmi2OK;
     for (int p = 0; p < gm_model_map()->n_paths; p++) {
         if (!gm_run_gear_refused(&f->run, p))
             continue;
@@ -228,6 +230,7 @@ static fmi2Status refuse_step(fmi2_instance *f, gm_verdict verdict, double t, do
     }
 }
 
+/* What became of each path in the last step. */
 static void log_shifts(const fmi2_instance *f, const gm_path_state *before)
 {
     for (int p = 0; p < gm_model_map()->n_paths; p++) {
@@ -243,22 +246,30 @@ static void log_shifts(const fmi2_instance *f, const gm_path_state *before)
     }
 }
 
+/* The step with its shifts reported. */
+static gm_verdict step_and_log(fmi2_instance *f, double t, double h)
+{
+    gm_path_state before[GM_MAX_PATHS];
+    memcpy(before, f->run.component.state.path, sizeof before);
+    gm_verdict verdict = gm_run_step(gm_model_map(), &f->run, t, h);
+    if (verdict == GM_VERDICT_OK)
+        log_shifts(f, before);
+    return verdict;
+}
+
 fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint,
                       fmi2Real communicationStepSize,
                       fmi2Boolean noSetFMUStatePriorToCurrentPoint)
 {
     fmi2_instance *f = fmi2_enter(c, "fmi2DoStep", GM_PHASE_STEP);
+    const double t = currentCommunicationPoint, h = communicationStepSize;
     (void)noSetFMUStatePriorToCurrentPoint; /* no history is kept that it could free */
     if (!f)
         return fmi2Error;
-    gm_path_state before[GM_MAX_PATHS];
-    memcpy(before, f->run.component.state.path, sizeof before);
-    gm_verdict verdict = gm_run_step(gm_model_map(), &f->run, currentCommunicationPoint,
-                                     communicationStepSize);
-    if (verdict)
-        return refuse_step(f, verdict, currentCommunicationPoint, communicationStepSize);
-    log_shifts(f, before);
-    return report(f, "fmi2DoStep");
+    gm_verdict verdict = f->logged & (FMI2_LOG_EVENTS | FMI2_LOG_ALL)
+                             ? step_and_log(f, t, h)
+                             : gm_run_step(gm_model_map(), &f->run, t, h);
+    return verdict ? refuse_step(f, verdict, t, h) : report(f, "fmi2DoStep");
 }
 
 fmi2Status fmi2CancelStep(fmi2Component c)

@@ -107,6 +107,14 @@ gm_verdict gm_run_step(const gm_reduced_map *map, gm_run *run, gm_real t, gm_rea
     return GM_VERDICT_OK;
 }
 
+bool gm_run_is_quiet(const gm_run *run)
+{
+    bool reported = false;
+    for (int p = 0; p < GM_MAX_PATHS; p++)
+        reported = reported || run->gear_reported[p];
+    return run->component.flags == 0 && !reported;
+}
+
 bool gm_run_gear_refused(gm_run *run, int p)
 {
     int command = run->component.value[GM_PATH_GEAR][p].integer;

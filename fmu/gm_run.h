@@ -65,6 +65,9 @@ gm_verdict gm_run_start(const gm_reduced_map *map, gm_run *run);
 /** Step from time t by h. On GM_VERDICT_OVERFLOW nothing has changed. */
 gm_verdict gm_run_step(const gm_reduced_map *map, gm_run *run, gm_real t, gm_real h);
 
+/** True when the last step has nothing to report: the usual case, told apart quickly. */
+bool gm_run_is_quiet(const gm_run *run);
+
 /** True once for each refused command on path p. */
 bool gm_run_gear_refused(gm_run *run, int p);
 

@@ -86,7 +86,7 @@ gm_status gm_compiler_find(const char *wanted, gm_compiler *compiler, gm_error *
  * of this machine in the result. */
 static const char *const flags[] = {
     "-std=c99",
-    "-O2",
+    "-O3",
     "-ffp-contract=off",
     "-fPIC",
     "-shared",
