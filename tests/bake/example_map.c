@@ -116,7 +116,7 @@ static void add_configurations(gm_map *map)
 
 static void set_gear(gm_map_path *path, int g, int number, double ratio)
 {
-    path->gears[g] = (gm_map_gear){number, ratio, NAN};
+    path->gears[g] = (gm_map_gear){number, ratio, (double)NAN};
 }
 
 static void set_paths(gm_map *map)
