@@ -9,51 +9,20 @@
 #include "base/alloc.h"
 #include "base/text.h"
 #include "model/check.h"
-#include "model/schema.h"
+#include "model/description_values.h"
 
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { ELEMENT = 192, EXPECTED = 256, MAX_CANDIDATES = 128 };
+enum { EXPECTED = 256 };
 
-typedef struct reader {
-    gm_description *d;
-    gm_error *error;
-} reader;
+static gm_status read_section(const gm_field_reader *r, const gm_place *p);
 
-/* A section of the file and where it goes. */
-typedef struct place {
-    const gm_section *section;
-    const gm_yaml *node; /* NULL: absent, defaults only */
-    char *base;
-    int line;
-    char element[ELEMENT];
-} place;
-
-/* One value of it. */
-typedef struct slot {
-    const place *in;
-    const gm_field *field;
-    const gm_yaml *node;
-    char *target;
-} slot;
-
-static gm_status read_section(const reader *r, const place *p);
-
-static gm_status out_of_memory(const reader *r)
+static gm_status out_of_memory(const gm_field_reader *r)
 {
     return gm_fail(r->error, GM_ERR_MEMORY, "out of memory");
-}
-
-static gm_status wrong_value(const reader *r, const slot *s, const char *hint)
-{
-    char expected[EXPECTED], found[GM_YAML_SHOW];
-    gm_schema_expectation(s->field, expected, sizeof expected);
-    return gm_description_fail(r->d->file, s->node->line, s->in->element, GM_ERR_FORMAT,
-                               r->error, "%s must be %s, found %s%s", s->field->key,
-                               expected, gm_yaml_show(s->node, found), hint);
 }
 
 /* The key that is the word and a unit, or -1: temperature is far from temperature_degC.
@@ -68,7 +37,8 @@ static int without_unit(const char *word, const char *const *keys, int n)
     return -1;
 }
 
-static gm_status unknown_key(const reader *r, const place *p, const gm_yaml *entry)
+static gm_status unknown_key(const gm_field_reader *r, const gm_place *p,
+                             const gm_yaml *entry)
 {
     const char *keys[GM_MAX_KEYS];
     char shown[GM_YAML_SHOW];
@@ -83,186 +53,14 @@ static gm_status unknown_key(const reader *r, const place *p, const gm_yaml *ent
                                near >= 0 ? keys[near] : "", near >= 0 ? "'?" : "");
 }
 
-/* ", did you mean 'input_odd'?" or nothing. */
-static const char *suggest(const char *word, int n, const char *const *names,
-                           char *buffer, size_t size)
+static void enter(gm_place *inner, const gm_place *outer, const gm_section *section)
 {
-    int near = gm_text_nearest(word, names, n);
-    buffer[0] = '\0';
-    if (near >= 0)
-        (void)snprintf(buffer, size, "; did you mean '%s'?", names[near]);
-    return buffer;
-}
-
-static int in_range(const gm_field *f, double v)
-{
-    int above = f->open & GM_OPEN_LOW ? v > f->low : v >= f->low;
-    int below = f->open & GM_OPEN_HIGH ? v < f->high : v <= f->high;
-    return above && below;
-}
-
-static int plain_scalar(const gm_yaml *node)
-{
-    return node->kind == GM_YAML_SCALAR && !node->quoted;
-}
-
-static gm_status read_number(const reader *r, const slot *s)
-{
-    double value;
-    if (!plain_scalar(s->node) || !gm_text_to_double(s->node->text, &value) ||
-        !in_range(s->field, value))
-        return wrong_value(r, s, "");
-    value = gm_unit_to_si(gm_schema_unit(s->field->key), value);
-    memcpy(s->target, &value, sizeof value);
-    return GM_OK;
-}
-
-static gm_status read_integer(const reader *r, const slot *s)
-{
-    int value;
-    if (!plain_scalar(s->node) || !gm_text_to_int(s->node->text, &value) ||
-        !in_range(s->field, value))
-        return wrong_value(r, s, "");
-    memcpy(s->target, &value, sizeof value);
-    return GM_OK;
-}
-
-static gm_status read_boolean(const reader *r, const slot *s)
-{
-    int value = plain_scalar(s->node) && strcmp(s->node->text, "true") == 0;
-    if (!value && !(plain_scalar(s->node) && strcmp(s->node->text, "false") == 0))
-        return wrong_value(r, s, "");
-    memcpy(s->target, &value, sizeof value);
-    return GM_OK;
-}
-
-static gm_status read_words(const reader *r, const slot *s)
-{
-    if (s->node->kind != GM_YAML_SCALAR || strlen(s->node->text) >= GM_NAME_SIZE ||
-        strchr(s->node->text, '\n') ||
-        (s->node->text[0] == '\0' && s->field->need == GM_NEED_VALUE))
-        return wrong_value(r, s, "");
-    memcpy(s->target, s->node->text, strlen(s->node->text) + 1);
-    return GM_OK;
-}
-
-static gm_status read_text(const reader *r, const slot *s)
-{
-    if (s->node->kind != GM_YAML_SCALAR)
-        return wrong_value(r, s, "");
-    char *copy = gm_strdup(s->node->text);
-    if (!copy)
-        return out_of_memory(r);
-    memcpy(s->target, &copy, sizeof copy);
-    return GM_OK;
-}
-
-static gm_status read_choice(const reader *r, const slot *s)
-{
-    const char *words[MAX_CANDIDATES];
-    char hint[GM_NAME_SIZE + 32];
-    int n = 0;
-    if (s->node->kind != GM_YAML_SCALAR)
-        return wrong_value(r, s, "");
-    for (const gm_choice *c = s->field->choices; c->word; c++) {
-        if (strcmp(c->word, s->node->text) == 0) {
-            memcpy(s->target, &c->value, sizeof c->value);
-            return GM_OK;
-        }
-        words[n++] = c->word;
-    }
-    return wrong_value(r, s, suggest(s->node->text, n, words, hint, sizeof hint));
-}
-
-/* The named parts that a reference can mean. */
-typedef struct collection {
-    const char *first; /* label of the first */
-    size_t size;
-    int n;
-} collection;
-
-static collection find_collection(const reader *r, const gm_section *section)
-{
-    size_t offset = 0;
-    const gm_field *field =
-        gm_schema_find(gm_schema_root(), section->collection, &offset);
-    const char *d = (const char *)r->d;
-    const char *items;
-    collection c = {.size = section->size};
-    memcpy(&items, d + offset, sizeof items);
-    memcpy(&c.n, d + field->count_offset, sizeof c.n);
-    c.first = items + section->label;
-    return c;
-}
-
-static const char *name_of(const collection *c, int i)
-{
-    return c->first + (size_t)i * c->size + offsetof(gm_label, name);
-}
-
-static gm_status unknown_reference(const reader *r, const slot *s, const collection *c)
-{
-    const char *names[MAX_CANDIDATES];
-    char hint[GM_NAME_SIZE + 32];
-    int n = 0;
-    if (s->node->kind != GM_YAML_SCALAR)
-        return wrong_value(r, s, "");
-    for (; n < c->n && n < MAX_CANDIDATES; n++)
-        names[n] = name_of(c, n);
-    return wrong_value(r, s, suggest(s->node->text, n, names, hint, sizeof hint));
-}
-
-static gm_status read_reference(const reader *r, const slot *s)
-{
-    const int housing = GM_HOUSING;
-    collection c = find_collection(r, s->field->section);
-    for (int i = 0; s->node->kind == GM_YAML_SCALAR && i < c.n; i++)
-        if (strcmp(name_of(&c, i), s->node->text) == 0) {
-            memcpy(s->target, &i, sizeof i);
-            return GM_OK;
-        }
-    if (s->field->need == GM_NEED_NOTHING && s->node->kind == GM_YAML_SCALAR &&
-        strcmp(s->node->text, "housing") == 0) {
-        memcpy(s->target, &housing, sizeof housing);
-        return GM_OK;
-    }
-    return unknown_reference(r, s, &c);
-}
-
-/* References in a list: each is read like a single one. */
-static gm_status read_references(const reader *r, const slot *s)
-{
-    const gm_field *f = s->field;
-    gm_field one = *f;
-    int *list = NULL;
-    if (s->node->kind != GM_YAML_LIST || s->node->n == 0 ||
-        (f->fixed_count && s->node->n != f->fixed_count))
-        return wrong_value(r, s, "");
-    if (!f->fixed_count) {
-        list = gm_calloc((size_t)s->node->n, sizeof *list);
-        if (!list)
-            return out_of_memory(r);
-        memcpy(s->target, &list, sizeof list);
-        memcpy(s->in->base + f->count_offset, &s->node->n, sizeof s->node->n);
-    }
-    one.type = GM_FIELD_REFERENCE;
-    gm_status status = GM_OK;
-    for (int i = 0; i < s->node->n && status == GM_OK; i++) {
-        slot item = {s->in, &one, s->node->item[i], s->target + (size_t)i * sizeof(int)};
-        if (list)
-            item.target = (char *)&list[i];
-        status = read_reference(r, &item);
-    }
-    return status;
-}
-
-static void enter(place *inner, const place *outer, const gm_section *section)
-{
-    *inner = (place){.section = section, .line = outer->line};
+    *inner = (gm_place){.section = section, .line = outer->line};
     memcpy(inner->element, outer->element, sizeof inner->element);
 }
 
-static void add_element(place *p, const char *format, const char *word, const char *name)
+static void add_element(gm_place *p, const char *format, const char *word,
+                        const char *name)
 {
     size_t n = strlen(p->element);
     if (n > 0)
@@ -271,9 +69,9 @@ static void add_element(place *p, const char *format, const char *word, const ch
         (void)snprintf(p->element + n, sizeof p->element - n, format, word, name);
 }
 
-static gm_status read_group(const reader *r, const slot *s)
+static gm_status read_group(const gm_field_reader *r, const gm_slot *s)
 {
-    place inner;
+    gm_place inner;
     enter(&inner, s->in, s->field->section);
     add_element(&inner, "%s%s", s->field->key, "");
     inner.node = s->node;
@@ -282,7 +80,7 @@ static gm_status read_group(const reader *r, const slot *s)
     return read_section(r, &inner);
 }
 
-static char *items_of(const slot *s)
+static char *items_of(const gm_slot *s)
 {
     char *items = s->target;
     if (!s->field->fixed_count)
@@ -290,7 +88,7 @@ static char *items_of(const slot *s)
     return items;
 }
 
-static gm_status read_items(const reader *r, const slot *s)
+static gm_status read_items(const gm_field_reader *r, const gm_slot *s)
 {
     const gm_section *section = s->field->section;
     char *items = items_of(s);
@@ -298,7 +96,7 @@ static gm_status read_items(const reader *r, const slot *s)
     for (int i = 0; i < s->node->n && status == GM_OK; i++) {
         const gm_yaml *node = s->node->item[i];
         char number[16];
-        place inner;
+        gm_place inner;
         enter(&inner, s->in, section);
         (void)snprintf(number, sizeof number, "%d", i + 1);
         add_element(&inner, section->key == GM_KEY_NAME ? "%s '%s'" : "%s %s",
@@ -311,36 +109,16 @@ static gm_status read_items(const reader *r, const slot *s)
     return status;
 }
 
-static gm_status read_value(const reader *r, const slot *s)
+static gm_status read_value(const gm_field_reader *r, const gm_slot *s)
 {
-    switch (s->field->type) {
-    case GM_FIELD_NUMBER:
-        return read_number(r, s);
-    case GM_FIELD_INTEGER:
-        return read_integer(r, s);
-    case GM_FIELD_BOOLEAN:
-        return read_boolean(r, s);
-    case GM_FIELD_WORDS:
-        return read_words(r, s);
-    case GM_FIELD_TEXT:
-        return read_text(r, s);
-    case GM_FIELD_CHOICE:
-        return read_choice(r, s);
-    case GM_FIELD_REFERENCE:
-        return read_reference(r, s);
-    case GM_FIELD_REFERENCES:
-        return read_references(r, s);
-    case GM_FIELD_GROUP:
+    if (s->field->type == GM_FIELD_GROUP)
         return read_group(r, s);
-    case GM_FIELD_ITEMS:
+    if (s->field->type == GM_FIELD_ITEMS)
         return read_items(r, s);
-    case GM_FIELD_INLINE:
-        break;
-    }
-    return GM_OK;
+    return gm_slot_read(r, s);
 }
 
-static void set_nothing(const slot *s)
+static void set_nothing(const gm_slot *s)
 {
     const double nan = (double)NAN;
     const int housing = GM_HOUSING;
@@ -350,7 +128,7 @@ static void set_nothing(const slot *s)
         memcpy(s->target, &housing, sizeof housing);
 }
 
-static gm_status read_absent(const reader *r, slot *s)
+static gm_status read_absent(const gm_field_reader *r, gm_slot *s)
 {
     if (s->field->need == GM_NEED_VALUE) {
         char expected[EXPECTED];
@@ -382,8 +160,8 @@ static int valid_name(const char *name)
     return name[n] == '\0' && n < GM_NAME_SIZE && strcmp(name, "housing") != 0;
 }
 
-static gm_status label_name(const reader *r, const place *p, const gm_section *section,
-                            const gm_yaml *node, char *item)
+static gm_status label_name(const gm_field_reader *r, const gm_place *p,
+                            const gm_section *section, const gm_yaml *node, char *item)
 {
     char found[GM_YAML_SHOW];
     gm_label label = {.line = node->line};
@@ -398,8 +176,8 @@ static gm_status label_name(const reader *r, const place *p, const gm_section *s
     return GM_OK;
 }
 
-static gm_status label_number(const reader *r, const place *p, const gm_section *section,
-                              const gm_yaml *node, char *item)
+static gm_status label_number(const gm_field_reader *r, const gm_place *p,
+                              const gm_section *section, const gm_yaml *node, char *item)
 {
     char found[GM_YAML_SHOW];
     int number;
@@ -415,8 +193,8 @@ static gm_status label_number(const reader *r, const place *p, const gm_section 
     return GM_OK;
 }
 
-static gm_status label_item(const reader *r, const place *p, const gm_section *section,
-                            const gm_yaml *node, char *item)
+static gm_status label_item(const gm_field_reader *r, const gm_place *p,
+                            const gm_section *section, const gm_yaml *node, char *item)
 {
     switch (section->key) {
     case GM_KEY_NAME:
@@ -431,12 +209,12 @@ static gm_status label_item(const reader *r, const place *p, const gm_section *s
 }
 
 /* Memory for the items, and their names. */
-static gm_status declare_items(const reader *r, const slot *s)
+static gm_status declare_items(const gm_field_reader *r, const gm_slot *s)
 {
     const gm_field *f = s->field;
     gm_yaml_kind kind = f->section->key == GM_KEY_NONE ? GM_YAML_LIST : GM_YAML_MAPPING;
     if (s->node->kind != kind || s->node->n == 0)
-        return wrong_value(r, s, "");
+        return gm_slot_wrong(r, s, "");
     if (f->fixed_count && s->node->n > f->fixed_count)
         return gm_description_fail(
             r->d->file, s->node->line, s->in->element, GM_ERR_FORMAT, r->error,
@@ -455,13 +233,13 @@ static gm_status declare_items(const reader *r, const slot *s)
     return status;
 }
 
-static slot slot_of(const place *p, const gm_field *field, size_t offset)
+static gm_slot slot_of(const gm_place *p, const gm_field *field, size_t offset)
 {
     const gm_yaml *node = p->node ? gm_yaml_get(p->node, field->key) : NULL;
-    return (slot){p, field, node, p->base + offset};
+    return (gm_slot){p, field, node, p->base + offset};
 }
 
-static gm_status check_keys(const reader *r, const place *p)
+static gm_status check_keys(const gm_field_reader *r, const gm_place *p)
 {
     size_t offset;
     for (int i = 0; i < p->node->n; i++)
@@ -471,12 +249,13 @@ static gm_status check_keys(const reader *r, const place *p)
 }
 
 /* A pass over all fields, inline ones included. */
-static gm_status for_fields(const reader *r, const place *p, const gm_section *section,
-                            size_t base, gm_status (*visit)(const reader *r, slot *s))
+static gm_status for_fields(const gm_field_reader *r, const gm_place *p,
+                            const gm_section *section, size_t base,
+                            gm_status (*visit)(const gm_field_reader *r, gm_slot *s))
 {
     gm_status status = GM_OK;
     for (const gm_field *f = section->fields; f->key && status == GM_OK; f++) {
-        slot s = slot_of(p, f, base + f->offset);
+        gm_slot s = slot_of(p, f, base + f->offset);
         status = f->type == GM_FIELD_INLINE
                      ? for_fields(r, p, f->section, base + f->offset, visit)
                      : visit(r, &s);
@@ -484,17 +263,17 @@ static gm_status for_fields(const reader *r, const place *p, const gm_section *s
     return status;
 }
 
-static gm_status visit_declare(const reader *r, slot *s)
+static gm_status visit_declare(const gm_field_reader *r, gm_slot *s)
 {
     return s->field->type == GM_FIELD_ITEMS && s->node ? declare_items(r, s) : GM_OK;
 }
 
-static gm_status visit_read(const reader *r, slot *s)
+static gm_status visit_read(const gm_field_reader *r, gm_slot *s)
 {
     return s->node ? read_value(r, s) : read_absent(r, s);
 }
 
-static gm_status read_section(const reader *r, const place *p)
+static gm_status read_section(const gm_field_reader *r, const gm_place *p)
 {
     char found[GM_YAML_SHOW];
     gm_status status = GM_OK;
@@ -513,8 +292,8 @@ static gm_status read_section(const reader *r, const place *p)
 
 gm_status gm_description_fields(gm_description *d, const gm_yaml *tree, gm_error *error)
 {
-    const reader r = {d, error};
-    const place root = {
+    const gm_field_reader r = {d, error};
+    const gm_place root = {
         .section = gm_schema_root(), .node = tree, .base = (char *)d, .line = tree->line};
     return read_section(&r, &root);
 }

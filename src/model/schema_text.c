@@ -78,7 +78,7 @@ void gm_schema_expectation(const gm_field *field, char *text, size_t size)
         add(text, size, "true or false");
         break;
     case GM_FIELD_WORDS:
-        add(text, size, "text of at most %d bytes", GM_NAME_SIZE - 1);
+        add(text, size, "one line of at most %d bytes", GM_NAME_SIZE - 1);
         break;
     case GM_FIELD_TEXT:
         add(text, size, "text");
