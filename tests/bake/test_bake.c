@@ -200,23 +200,32 @@ static void foreign_texts_cannot_break_the_description(void **state)
     assert_int_equal(gm_bake_fmu2(at->map, &usual, at->target, NULL, &error), GM_OK);
 }
 
-/* The k-th allocation fails; the early ones, before the compiler runs, and a sample. */
+static gm_status bake_with_failure(const place *at, int k, const char *compiler)
+{
+    gm_bake_options options = usual;
+    gm_error error;
+    options.compiler = compiler;
+    gm_alloc_fail_after(k);
+    gm_status status = gm_bake_fmu2(at->map, &options, at->target, NULL, &error);
+    gm_alloc_fail_after(0);
+    assert_int_equal(entries(at, 0), status == GM_OK);
+    return status;
+}
+
+/* The k-th allocation fails: all up to the compiler (one that makes no library, since
+ * that is quick), and some after it. */
 static void failed_allocations_leave_nothing(void **state)
 {
     place *at = *state;
     gm_status status = GM_ERR_MEMORY;
-    gm_bake_options options = usual;
-    int failures = 0;
-    for (int k = 1; k < 400 && status != GM_OK; k += k < 60 ? 1 : 37) {
-        gm_error error;
-        options.compiler = k < 60 ? "true" : NULL;
-        gm_alloc_fail_after(k);
-        status = gm_bake_fmu2(at->map, &options, at->target, NULL, &error);
-        gm_alloc_fail_after(0);
-        failures += status == GM_ERR_MEMORY;
-        assert_int_equal(entries(at, 0), status == GM_OK);
-    }
-    assert_true(failures > 60 && status == GM_OK);
+    int k = 0;
+    while (status == GM_ERR_MEMORY && k < 2000)
+        status = bake_with_failure(at, ++k, "true");
+    assert_int_equal(status, GM_ERR_TOOL);
+    assert_true(k > 100);
+    for (status = GM_ERR_MEMORY; status == GM_ERR_MEMORY && k < 2000; k += 6)
+        status = bake_with_failure(at, k, NULL);
+    assert_int_equal(status, GM_OK);
 }
 
 #define IN_PLACE(test) cmocka_unit_test_setup_teardown(test, make_place, remove_place)

@@ -273,7 +273,7 @@ static void steps_follow_each_other(void **state)
     }
 }
 
-/* 10^6 steps in three ways of keeping time, from a start time that no step divides. */
+/* 10^5 steps in three ways of keeping time, from a start time that no step divides. */
 static void rounding_of_time_never_rejects_a_step(void **state)
 {
     const double start = 1234.5678, h = 1e-4 / 3.0;
@@ -282,10 +282,10 @@ static void rounding_of_time_never_rejects_a_step(void **state)
         host messages;
         double t = start;
         fmi2Component c = host_instantiate(&messages);
-        assert_int_equal(fmi2SetupExperiment(c, 0, 0, start, 1, start + 1e6 * h), fmi2OK);
+        assert_int_equal(fmi2SetupExperiment(c, 0, 0, start, 1, start + 1e5 * h), fmi2OK);
         assert_int_equal(fmi2EnterInitializationMode(c), fmi2OK);
         assert_int_equal(fmi2ExitInitializationMode(c), fmi2OK);
-        for (int i = 0; i < 1000000; i++) {
+        for (int i = 0; i < 100000; i++) {
             double next = start + (i + 1) * h;
             double step = way == 2 ? next - t : h;
             if (fmi2DoStep(c, t, step, fmi2False) != fmi2OK)
