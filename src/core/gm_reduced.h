@@ -136,13 +136,14 @@ typedef struct gm_surface {
 } gm_surface;
 
 /** N and R of a free path with all its drag lines, in one patch of the (w_n, w_o) plane
- *  that no ramp touches; see reduced_drag.c. */
+ *  that at most one ramp crosses; see reduced_drag.c. */
 typedef struct gm_drag_patch {
-    int key;                  /* 1 + 2 direction of w_n + direction of w_o; 0: empty */
-    int any_above, any_below; /* lines that the patch lies above, below of */
+    int key;                            /* 1 + 2 direction of w_n + direction of w_o */
+    int any_above, any_below, any_ramp; /* lines that the patch lies above, below, on */
     gm_real x_low, x_high, y_low, y_high;
     gm_real ratio_above, ratio_below; /* the nearest of them */
-    gm_surface drag, reaction;
+    gm_surface drag, reaction;        /* without the line it lies on: */
+    gm_real ratio_ramp, half, half_y; /* its ratio; half its jump about y_low */
 } gm_drag_patch;
 
 /** Interpolation caches: no influence on results. Zeroed memory is an empty cache.

@@ -9,7 +9,9 @@
  *
  * Away from the ramps every sat is +1 or -1 and the sums are bilinear like the tables. A
  * patch holds the coefficients of both sums over the common cell of all the tables, so
- * that idling gears cost nothing while the point stays there. Which of the two ways is
+ * that idling gears cost nothing while the point stays there; one line may be on its
+ * ramp, as a shaft that nothing drives settles next to a line. With more of them, at the
+ * edges of the tables and near w_o = 0 the lines are summed one by one. Which way is
  * taken depends on the point only, never on what the cache holds.
  */
 #include "cell.h"
@@ -48,33 +50,49 @@ static gm_value1 line_jump(const gm_drive *d, int p, int line, const place *q,
 
 /* ---- the patch ---- */
 
+static int on_ramp(gm_real slip)
+{
+    return slip < GM_LINE_WIDTH && slip > -GM_LINE_WIDTH;
+}
+
 static int in_patch(const gm_drag_patch *c, const place *q)
 {
     return c->key == 1 + 2 * q->i + q->j && q->x >= c->x_low && q->x < c->x_high &&
            q->y >= c->y_low && q->y < c->y_high &&
            (!c->any_above || q->w - c->ratio_above * q->w_o >= GM_LINE_WIDTH) &&
-           (!c->any_below || q->w - c->ratio_below * q->w_o <= -GM_LINE_WIDTH);
+           (!c->any_below || q->w - c->ratio_below * q->w_o <= -GM_LINE_WIDTH) &&
+           (!c->any_ramp || on_ramp(q->w - c->ratio_ramp * q->w_o));
 }
 
-/* Sides of all lines: the tightest of those the point is above and below of. 0: the point
- * is on a ramp. */
+/* Note the side of a line; 0: a second line on its ramp. */
+static int sort_line(gm_real r, gm_real sign, const place *q, gm_drag_patch *c)
+{
+    const gm_real slip = q->w - r * q->w_o;
+    if (on_ramp(slip)) {
+        c->ratio_ramp = r;
+        return ++c->any_ramp == 1;
+    }
+    if (slip > 0 && (!c->any_above || sign * r > sign * c->ratio_above)) {
+        c->any_above = 1;
+        c->ratio_above = r;
+    }
+    if (slip < 0 && (!c->any_below || sign * r < sign * c->ratio_below)) {
+        c->any_below = 1;
+        c->ratio_below = r;
+    }
+    return 1;
+}
+
+/* Sides of all lines: the nearest of those the point is above and below of, and the one
+ * it is on. 0: no patch here. */
 static int sort_lines(const gm_path *path, const place *q, gm_drag_patch *c)
 {
     const gm_real sign = q->j == GM_BACKWARD ? -1 : 1;
     for (int i = 0; i < path->n_lines; i++) {
-        const gm_real r = path->lines[i].ratio, slip = q->w - r * q->w_o;
-        const gm_real least = GM_LINE_WIDTH / gm_abs(r);
-        if (q->y < least || (slip < GM_LINE_WIDTH && slip > -GM_LINE_WIDTH)) {
-            return 0;
-        }
+        const gm_real r = path->lines[i].ratio, least = GM_LINE_WIDTH / gm_abs(r);
         c->y_low = least > c->y_low ? least : c->y_low;
-        if (slip > 0 && (!c->any_above || sign * r > sign * c->ratio_above)) {
-            c->any_above = 1;
-            c->ratio_above = r;
-        }
-        if (slip < 0 && (!c->any_below || sign * r < sign * c->ratio_below)) {
-            c->any_below = 1;
-            c->ratio_below = r;
+        if (q->y < least || !sort_line(r, sign, q, c)) {
+            return 0;
         }
     }
     return 1;
@@ -107,13 +125,18 @@ static gm_surface surface_of(const gm_cell2 *cell, const gm_drag_patch *c)
 static void add_line_to_patch(const gm_cell1 *jump, gm_real r, const place *q,
                               gm_drag_patch *c)
 {
-    const gm_real side = q->w - r * q->w_o > 0 ? 1 : -1;
-    const gm_real rest = r * q->w_o > 0 ? 1 : -1;
-    const gm_real half = gm_cell1_inside(jump, c->y_low).value / 2, slope = jump->cx / 2;
+    const gm_real half = gm_cell1_inside(jump, c->y_low).value / 2, half_y = jump->cx / 2;
+    const gm_real slip = q->w - r * q->w_o, rest = r * q->w_o > 0 ? 1 : -1;
+    gm_real side = slip > 0 ? 1 : -1;
+    if (on_ramp(slip)) {
+        c->half = half;
+        c->half_y = half_y;
+        side = 0;
+    }
     c->drag.c0 += side * half;
-    c->drag.cy += side * slope;
+    c->drag.cy += side * half_y;
     c->reaction.c0 -= r * (side + rest) * half;
-    c->reaction.cy -= r * (side + rest) * slope;
+    c->reaction.cy -= r * (side + rest) * half_y;
 }
 
 /* The patch around q in *c; 0 when there is none: on a ramp, at or beyond an edge. */
@@ -150,6 +173,22 @@ static int fill_patch(const gm_drive *d, int p, const place *q, gm_drag_patch *c
     return 1;
 }
 
+/* The line that the patch lies on. */
+static void add_ramp(const gm_drag_patch *c, const place *q, gm_real sign_o,
+                     gm_real scale, gm_path_terms *t)
+{
+    const gm_real r = c->ratio_ramp, s = (q->w - r * q->w_o) / GM_LINE_WIDTH;
+    const gm_real half = scale * (c->half + c->half_y * (q->y - c->y_low));
+    const gm_real slope = half / GM_LINE_WIDTH;
+    const gm_real slope_o = scale * sign_o * c->half_y * s - r * slope;
+    t->drag += half * s;
+    t->drag_n += slope;
+    t->drag_o += slope_o;
+    t->reaction -= r * half * s;
+    t->reaction_n -= r * slope;
+    t->reaction_o -= r * slope_o;
+}
+
 static void set_from_patch(const gm_drag_patch *c, const place *q, gm_real sign_n,
                            gm_real sign_o, gm_real scale, gm_path_terms *t)
 {
@@ -162,6 +201,9 @@ static void set_from_patch(const gm_drag_patch *c, const place *q, gm_real sign_
     t->reaction = scale * (r->c0 + r->cy * v + r_x * u);
     t->reaction_n = scale * sign_n * r_x;
     t->reaction_o = scale * sign_o * (r->cy + r->cxy * u);
+    if (c->any_ramp) {
+        add_ramp(c, q, sign_o, scale, t);
+    }
 }
 
 /* ---- the sum over the lines ---- */
@@ -240,9 +282,19 @@ void gm_drag_terms(const gm_drive *d, int p, gm_real sign_n, gm_real sign_o,
 
 /* ---- do they hold at another point? ---- */
 
-static int surface_holds(const gm_surface *s, gm_real du, gm_real dv, gm_real value)
+static int small(gm_real rest, gm_real value)
 {
-    return gm_abs(s->cxy * du * dv) <= GM_REMAINDER * gm_abs(value) + GM_REMAINDER_NM;
+    return gm_abs(rest) <= GM_REMAINDER * gm_abs(value) + GM_REMAINDER_NM;
+}
+
+static int patch_holds(const gm_drag_patch *c, const place *q, const place *to,
+                       const gm_path_terms *t)
+{
+    const gm_real du = to->x - q->x, dv = to->y - q->y;
+    const gm_real d_slip = to->w - q->w - c->ratio_ramp * (to->w_o - q->w_o);
+    const gm_real ramp_rest = c->any_ramp ? c->half_y * dv * d_slip / GM_LINE_WIDTH : 0;
+    return in_patch(c, to) && small(c->drag.cxy * du * dv, t->drag) &&
+           small(c->reaction.cxy * du * dv, t->reaction) && small(ramp_rest, t->drag);
 }
 
 /* Whether every line's ramps and jump table are read in the same place. Of more than
@@ -270,10 +322,7 @@ int gm_drag_holds(const gm_drive *d, const gm_solution *s, int p, const gm_point
     const place q = place_of(p, s->sign[p], s->sign[GM_OUT], from);
     const place to = place_of(p, s->sign[p], s->sign[GM_OUT], next);
     if (t->patched) {
-        const gm_drag_patch *c = &d->cache->patch[p];
-        return in_patch(c, &to) &&
-               surface_holds(&c->drag, to.x - q.x, to.y - q.y, t->drag) &&
-               surface_holds(&c->reaction, to.x - q.x, to.y - q.y, t->reaction);
+        return patch_holds(&d->cache->patch[p], &q, &to, t);
     }
     return gm_cell2_holds(&d->cache->drag[p][q.i][q.j], q.x, q.y, to.x, to.y, t->drag) &&
            gm_cell2_holds(&d->cache->reaction[p][q.i][q.j], q.x, q.y, to.x, to.y,

@@ -61,11 +61,13 @@ typedef struct gm_path_terms {
 typedef struct gm_terms {
     gm_real out, out_o, out_tau[GM_MAX_PATHS]; /* sigma (P + X); d/dw_o, d/dtau_m,p */
     gm_real coupling, coupling_w;              /* C(w_0 - w_1) and its slope */
+    gm_real coupling_a;                        /* and its gradient to dw_0/dt - dw_1/dt */
     gm_path_terms path[GM_MAX_PATHS];
     int outside;
 } gm_terms;
 
 typedef struct gm_solution {
+    gm_real lead; /* when in the sub-step C is read: theta h, see reduced_terms.c */
     gm_point point;
     gm_terms terms;          /* the very torques of the momentum balance */
     gm_real sign[GM_SHAFTS]; /* direction of rotation assumed: +1, -1 */
@@ -95,7 +97,7 @@ static inline int gm_direction(gm_real sign)
 
 /* Relative size of the bilinear remainder cxy du dv that a step may leave out. It is of
  * second order in the step, like the method; the bound matters for large steps only. */
-#define GM_REMAINDER 1e-3
+#define GM_REMAINDER 1e-4
 #define GM_REMAINDER_NM 1e-9 /* N.m, where the torque itself passes through zero */
 
 /** Whether to lies in the same cell low .. high, or beyond the same edge, as from. */
@@ -163,6 +165,13 @@ void gm_terms_at(const gm_drive *d, gm_solution *s, gm_point *point);
 void gm_output_terms(const gm_drive *d, gm_real sign, const gm_point *point,
                      gm_terms *terms);
 
+/** How fast the two paths' speeds part: dw_0/dt - dw_1/dt. */
+static inline gm_real gm_parting(const gm_drive *d, const gm_point *at)
+{
+    return (d->engaged[0] ? d->ratio[0] * at->a[GM_OUT] : at->a[0]) -
+           (d->engaged[1] ? d->ratio[1] * at->a[GM_OUT] : at->a[1]);
+}
+
 /** N and R of free path p for the directions of the path and of the output. */
 void gm_drag_terms(const gm_drive *d, int p, gm_real sign_n, gm_real sign_o,
                    const gm_point *point, gm_terms *terms);
@@ -174,7 +183,7 @@ int gm_drag_holds(const gm_drive *d, const gm_solution *s, int p, const gm_point
 /** Whether the linearised terms of s hold from point to next as well: every table read
  *  stays in its cell, and what the gradients leave out of its bilinear surface is small.
  */
-int gm_terms_hold(const gm_drive *d, const gm_solution *s, const gm_point *point,
+int gm_terms_hold(const gm_drive *d, gm_solution *s, const gm_point *point,
                   const gm_point *next);
 
 /** Motion over d->h from the speeds d->w: accelerations, held shafts, loss torques. */

@@ -12,7 +12,8 @@
  * table leaves its cell the next pass starts there. Every pass yields torques that fulfil
  * the linearised balance to rounding, and these torques are what the account of losses
  * uses: it closes whether or not the passes have converged. The passes are bounded by
- * GM_PASSES; brackets on every unknown turn cycles between cells into bisection.
+ * GM_PASSES; brackets on every unknown turn cycles between cells into bisection. Only the
+ * coupling C may be read later than at the middle of the step, when it is stiff.
  *
  * Friction at rest: a shaft at standstill is held unless the torque on it exceeds one of
  * the two one-sided limits; then it is let go in that direction. Each shaft can be let go
@@ -24,7 +25,7 @@
  */
 #include "reduced_parts.h"
 
-enum { GM_PASSES = 40, GM_FREE_PASSES = 3, GM_ROUNDS = 2 * GM_SHAFTS + 1 };
+enum { GM_PASSES = 60, GM_FREE_PASSES = 3, GM_ROUNDS = 2 * GM_SHAFTS + 1 };
 
 #define GM_FAR 1e300 /* bracket that excludes nothing */
 
@@ -78,8 +79,9 @@ static row output_row(const gm_drive *d, const gm_terms *t, const gm_point *at)
         if (d->engaged[p]) {
             const gm_real q = passed_on(d, t, p);
             inertia += d->inertia[p] * r * q;
-            slope += r * (path->load_o + q * t->coupling_w);
-            line.k[1 - p] -= half * q * t->coupling_w;
+            slope += r * path->load_o;
+            inertia += r * q * t->coupling_a;
+            line.k[1 - p] -= q * t->coupling_a;
         } else {
             slope += path->reaction_o;
             line.k[p] += half * path->reaction_n;
@@ -91,14 +93,14 @@ static row output_row(const gm_drive *d, const gm_terms *t, const gm_point *at)
 
 static row path_row(const gm_drive *d, const gm_terms *t, const gm_point *at, int p)
 {
-    const gm_real half = d->h / 2, c_w = t->coupling_w;
+    const gm_real half = d->h / 2, c_a = t->coupling_a;
     const gm_path_terms *path = &t->path[p];
     const int other = 1 - p;
     row line = {{0, 0, 0}, path_balance(d, t, at, p), PIVOT_LIMIT * d->inertia[p]};
-    line.k[p] = d->inertia[p] + half * (path->drag_n + c_w);
-    line.k[other] = -half * c_w;
+    line.k[p] = d->inertia[p] + half * path->drag_n + c_a;
+    line.k[other] = -c_a;
     line.k[GM_OUT] =
-        half * (path->drag_o - (d->engaged[other] ? c_w * d->ratio[other] : 0));
+        half * path->drag_o - (d->engaged[other] ? c_a * d->ratio[other] : 0);
     return line;
 }
 
@@ -126,7 +128,7 @@ static int eliminate(row r[GM_SHAFTS], gm_real change[GM_SHAFTS])
 
 static void drop_gradients(gm_terms *t)
 {
-    t->out_o = t->coupling_w = 0;
+    t->out_o = t->coupling_a = 0;
     for (int p = 0; p < GM_MAX_PATHS; p++) {
         gm_path_terms *path = &t->path[p];
         t->out_tau[p] = path->load_o = path->load_tau = 0;
@@ -170,7 +172,7 @@ static void linearise(const gm_drive *d, gm_terms *t, const gm_point *from, gm_p
 {
     const gm_real d_o = to->m[GM_OUT] - from->m[GM_OUT];
     const gm_real d_a = to->a[GM_OUT] - from->a[GM_OUT];
-    const gm_real d_c = t->coupling_w * (to->m[0] - from->m[0] - (to->m[1] - from->m[1]));
+    const gm_real d_c = t->coupling_a * (gm_parting(d, to) - gm_parting(d, from));
     t->coupling += d_c;
     t->out += t->out_o * d_o;
     for (int p = 0; p < d->n_paths; p++) {
@@ -235,20 +237,36 @@ static void one_pass(const gm_drive *d, gm_solution *s, gm_point *at)
     linearise(d, &s->terms, at, &s->point);
 }
 
+/* Another problem than the pass before solved (s->lead has moved): nothing is excluded.
+ */
+static void reset_brackets(gm_real low[GM_SHAFTS], gm_real high[GM_SHAFTS])
+{
+    for (int k = 0; k < GM_SHAFTS; k++) {
+        low[k] = -GM_FAR;
+        high[k] = GM_FAR;
+    }
+}
+
 static void run_passes(const gm_drive *d, gm_solution *s)
 {
     gm_point at;
+    s->lead = d->h / 2;
     first_place(d, s, &at);
     one_pass(d, s, &at);
     if (gm_terms_hold(d, s, &at, &s->point)) {
         return;
     }
-    gm_real low[GM_SHAFTS] = {-GM_FAR, -GM_FAR, -GM_FAR};
-    gm_real high[GM_SHAFTS] = {GM_FAR, GM_FAR, GM_FAR};
+    gm_real low[GM_SHAFTS], high[GM_SHAFTS], lead = d->h / 2;
+    reset_brackets(low, high);
     for (int pass = 1; pass < GM_PASSES; pass++) {
         gm_point next = s->point;
-        next_place(pass, &at, &next, low, high);
-        set_speeds(d, &next);
+        if (s->lead != lead) {
+            reset_brackets(low, high);
+            lead = s->lead;
+        } else {
+            next_place(pass, &at, &next, low, high);
+            set_speeds(d, &next);
+        }
         at = next;
         one_pass(d, s, &at);
         if (gm_terms_hold(d, s, &at, &s->point)) {

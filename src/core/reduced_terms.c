@@ -18,12 +18,28 @@
 
 /* ---- values ---- */
 
-static gm_real coupling_at(const gm_drive *d, const gm_point *at, gm_terms *t)
+/* theta h for a coupling of this slope. z = h slope (1/J_0 + 1/J_1), with J_s/r^2 for an
+ * engaged path, is the step in time constants of the slip. Up to 2 the middle of the step
+ * is right. Beyond, the midpoint rule would answer with a slip that changes sign on every
+ * step; theta = 1 - 1/z takes it to rest at once. */
+static gm_real coupling_lead(const gm_drive *d, gm_real slope)
 {
-    const gm_value1 c =
-        gm_cell1_at(&d->map->coupling, 1, &d->cache->coupling, at->m[0] - at->m[1]);
+    const gm_real j_0 = d->inertia[d->engaged[0] ? GM_OUT : 0];
+    const gm_real j_1 = d->inertia[d->engaged[1] ? GM_OUT : 1];
+    const gm_real g_0 = d->engaged[0] ? d->ratio[0] * d->ratio[0] : 1;
+    const gm_real g_1 = d->engaged[1] ? d->ratio[1] * d->ratio[1] : 1;
+    const gm_real above = d->h * slope * (g_0 * j_1 + g_1 * j_0), below = j_0 * j_1;
+    return above <= 2 * below ? d->h / 2 : d->h - d->h * below / above;
+}
+
+static gm_real coupling_at(const gm_drive *d, const gm_solution *s, const gm_point *at,
+                           gm_terms *t)
+{
+    const gm_real slip = d->w[0] - d->w[1] + s->lead * gm_parting(d, at);
+    const gm_value1 c = gm_cell1_at(&d->map->coupling, 1, &d->cache->coupling, slip);
     t->coupling = d->scale * c.value;
     t->coupling_w = d->scale * c.dx;
+    t->coupling_a = t->coupling_w * s->lead;
     t->outside |= c.outside;
     return t->coupling;
 }
@@ -90,7 +106,7 @@ void gm_terms_at(const gm_drive *d, gm_solution *s, gm_point *at)
     static const gm_terms none = {0};
     gm_terms *t = &s->terms;
     *t = none;
-    const gm_real c = d->coupled ? coupling_at(d, at, t) : 0;
+    const gm_real c = d->coupled ? coupling_at(d, s, at, t) : 0;
     for (int p = 0; p < d->n_paths; p++) {
         const gm_real tau = d->tau[p] + (p == 0 ? -c : c);
         at->tau_m[p] = tau - d->inertia[p] * d->ratio[p] * at->a[GM_OUT];
@@ -105,10 +121,12 @@ void gm_terms_at(const gm_drive *d, gm_solution *s, gm_point *at)
 
 /* ---- do they hold at another point? ---- */
 
-/* Trilinear remainders are not bounded: X is a small correction on a coarse table. */
-static int both_loaded_holds(const gm_drive *d, gm_real sigma, const gm_point *at,
+/* Of the remainder the part of the two torques is the largest by far: each changes with
+ * the acceleration, the speed only with half a step of it. */
+static int both_loaded_holds(const gm_drive *d, const gm_solution *s, const gm_point *at,
                              const gm_point *to)
 {
+    const gm_real sigma = s->sign[GM_OUT];
     const int dir = gm_direction(sigma);
     const gm_cell3 *c = &d->cache->both_loaded[dir];
     if (!d->engaged[0] || !d->engaged[1] ||
@@ -120,7 +138,10 @@ static int both_loaded_holds(const gm_drive *d, gm_real sigma, const gm_point *a
     return gm_stays(c->x_low, c->x_high, gm_not_below_zero(sigma * at->m[GM_OUT]),
                     gm_not_below_zero(sigma * to->m[GM_OUT])) &&
            gm_stays(c->y_low, c->y_high, s0 * at->tau_m[0], s0 * to->tau_m[0]) &&
-           gm_stays(c->z_low, c->z_high, s1 * at->tau_m[1], s1 * to->tau_m[1]);
+           gm_stays(c->z_low, c->z_high, s1 * at->tau_m[1], s1 * to->tau_m[1]) &&
+           gm_abs(c->c[0][1][1] * (to->tau_m[0] - at->tau_m[0]) *
+                  (to->tau_m[1] - at->tau_m[1])) <=
+               GM_REMAINDER * gm_abs(s->terms.out) + GM_REMAINDER_NM;
 }
 
 static int output_holds(const gm_drive *d, const gm_solution *s, const gm_point *at,
@@ -130,7 +151,7 @@ static int output_holds(const gm_drive *d, const gm_solution *s, const gm_point 
     const gm_cell1 *c = &d->cache->parasitic[gm_direction(sign_o)];
     if (!gm_stays(c->x_low, c->x_high, gm_not_below_zero(sign_o * at->m[GM_OUT]),
                   gm_not_below_zero(sign_o * to->m[GM_OUT])) ||
-        !both_loaded_holds(d, sign_o, at, to)) {
+        !both_loaded_holds(d, s, at, to)) {
         return 0;
     }
     for (int p = 0; p < d->n_paths; p++) {
@@ -146,12 +167,26 @@ static int output_holds(const gm_drive *d, const gm_solution *s, const gm_point 
     return 1;
 }
 
-int gm_terms_hold(const gm_drive *d, const gm_solution *s, const gm_point *at,
-                  const gm_point *to)
+/* As the others, and the moment at which C is read must fit its slope; it only ever
+ * moves towards the end of the step, so that the passes settle. */
+static int coupling_holds(const gm_drive *d, gm_solution *s, const gm_point *at,
+                          const gm_point *to)
 {
     const gm_cell1 *c = &d->cache->coupling;
-    if (d->coupled &&
-        !gm_stays(c->x_low, c->x_high, at->m[0] - at->m[1], to->m[0] - to->m[1])) {
+    const gm_real slip = d->w[0] - d->w[1];
+    const gm_real lead = coupling_lead(d, s->terms.coupling_w);
+    if (lead > s->lead) {
+        s->lead = lead;
+        return 0;
+    }
+    return gm_stays(c->x_low, c->x_high, slip + s->lead * gm_parting(d, at),
+                    slip + s->lead * gm_parting(d, to));
+}
+
+int gm_terms_hold(const gm_drive *d, gm_solution *s, const gm_point *at,
+                  const gm_point *to)
+{
+    if (d->coupled && !coupling_holds(d, s, at, to)) {
         return 0;
     }
     if (!s->held[GM_OUT] && !output_holds(d, s, at, to)) {
