@@ -63,23 +63,25 @@ class Map:
             self.inertia.append(inertia)
             self.sync_torque.append(torque)
         self.ratio = {(p, g): r for p, g, r in db.execute("SELECT path, gear, ratio FROM gear")}
-        self.lines = [[r for (p, _), r in sorted(self.ratio.items()) if p == path]
-                      for path in range(len(self.names))]
+        self.lines = [[r for r, in db.execute(
+            "SELECT DISTINCT line_ratio FROM map_table WHERE symbol = 'line_jump' AND "
+            "path = ? ORDER BY line_ratio", (path,))] for path in range(len(self.names))]
         self.tables = {}
         for row in db.execute("SELECT id, symbol, path, gear_0, gear_1, direction_0, "
-                              "direction_1, axis_0, axis_1, axis_2 FROM map_table"):
+                              "direction_1, line_ratio, axis_0, axis_1, axis_2 FROM map_table"):
             axes = [numpy.array([x for x, in db.execute(
                 "SELECT x FROM axis_value WHERE axis = ? ORDER BY i", (a,))])
-                for a in row[7:] if a is not None]
+                for a in row[8:] if a is not None]
             values = numpy.array([v for v, in db.execute(
                 "SELECT value FROM value WHERE map_table = ? ORDER BY i, j, k", row[:1])])
-            self.tables[row[1:7]] = (axes, values.reshape([len(a) for a in axes]))
+            self.tables[row[1:8]] = (axes, values.reshape([len(a) for a in axes]))
         db.close()
 
-    def at(self, symbol, *point, path=None, gears=(None, None), directions=(None, None)):
+    def at(self, symbol, *point, path=None, gears=(None, None), directions=(None, None),
+           line=None):
         words = [None if d is None else "forward" if d > 0 else "backward"
                  for d in directions]
-        axes, values = self.tables[(symbol, path, *gears, *words)]
+        axes, values = self.tables[(symbol, path, *gears, *words, line)]
         for axis, x in zip(axes, point):
             i = int(numpy.clip(numpy.searchsorted(axis, x, "right") - 1, 0, len(axis) - 2))
             share = min(max((x - axis[i]) / (axis[i + 1] - axis[i]), 0.0), 1.0)
@@ -87,10 +89,7 @@ class Map:
         return float(values)
 
     def line_jump(self, p, ratio, direction, w_o):
-        gear = [g for (q, g), r in self.ratio.items() if q == p and r == ratio][0]
-        gears = (gear, None) if p == 0 else (None, gear)
-        return self.at("line_jump", abs(w_o), path=p, gears=gears,
-                       directions=(direction, None))
+        return self.at("line_jump", abs(w_o), path=p, line=ratio, directions=(direction, None))
 
 
 def sat(x):

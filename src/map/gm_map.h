@@ -28,7 +28,7 @@ typedef enum gm_symbol {
     GM_DRAG,        /* N: path, direction[0] of the path, [1] of the output;
                           axes: path speed, output speed */
     GM_REACTION,    /* R: as N */
-    GM_LINE_JUMP,   /* path, gear[path], direction[0] of the output; axes: output speed */
+    GM_LINE_JUMP,   /* path, line, direction[0] of the output; axes: output speed */
     GM_COUPLING,    /* C: axes: relative speed, signed */
     GM_SYMBOLS      /* how many there are */
 } gm_symbol;
@@ -43,6 +43,7 @@ typedef struct gm_table_key {
     int path;
     int gear[GM_MAX_PATHS];
     int direction[2];
+    double line; /* ratio w_path / w_output of a drag line; 0: does not apply */
 } gm_table_key;
 
 /** A key of this symbol whose other fields are all GM_MAP_ANY: the start of any key. */

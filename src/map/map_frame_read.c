@@ -189,6 +189,13 @@ static bool column_direction(sqlite3_stmt *rows, int column, int *direction)
     return *direction != GM_MAP_ANY;
 }
 
+static bool column_line(sqlite3_stmt *rows, int column, double *line)
+{
+    *line = 0.0;
+    return sqlite3_column_type(rows, column) == SQLITE_NULL ||
+           (gm_column_real(rows, column, line) && *line != 0.0);
+}
+
 static bool column_key(sqlite3_stmt *rows, gm_table_key *key)
 {
     char symbol[24];
@@ -199,7 +206,7 @@ static bool column_key(sqlite3_stmt *rows, gm_table_key *key)
            column_or_any(rows, 3, -1, &key->gear[0]) &&
            column_or_any(rows, 4, -1, &key->gear[1]) &&
            column_direction(rows, 5, &key->direction[0]) &&
-           column_direction(rows, 6, &key->direction[1]);
+           column_direction(rows, 6, &key->direction[1]) && column_line(rows, 7, &key->line);
 }
 
 /* The axes a row of map_table names: number, nodes and whether they may be. */
@@ -211,11 +218,11 @@ static bool column_axes(const axis_list *list, sqlite3_stmt *rows,
     for (int a = 0; a < GM_MAX_AXES; a++) {
         int axis;
         if (a >= rule->n_axes) {
-            if (sqlite3_column_type(rows, 7 + a) != SQLITE_NULL)
+            if (sqlite3_column_type(rows, 8 + a) != SQLITE_NULL)
                 return false;
             continue;
         }
-        if (!gm_column_int(rows, 7 + a, 0, list->n - 1, &axis) ||
+        if (!gm_column_int(rows, 8 + a, 0, list->n - 1, &axis) ||
             strcmp(list->axes[axis].quantity, rule->axis[a].quantity) != 0)
             return false;
         n[a] = list->axes[axis].n;
@@ -258,7 +265,8 @@ gm_status gm_frame_read_tables(const gm_db *db, long long file_size, gm_map *map
     if (status == GM_OK)
         status = gm_db_prepare(db,
                                "SELECT id, symbol, path, gear_0, gear_1, direction_0, "
-                               "direction_1, axis_0, axis_1, axis_2 FROM map_table "
+                               "direction_1, line_ratio, axis_0, axis_1, axis_2 "
+                               "FROM map_table "
                                "ORDER BY id",
                                &rows, error);
     if (status == GM_OK)

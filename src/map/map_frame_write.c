@@ -110,7 +110,7 @@ static gm_status write_table(axis_writer *w, const gm_map *map, int t, gm_error 
     for (int a = 0; status == GM_OK && a < table->n_axes; a++) {
         int axis = 0;
         status = write_axis(w, &rule->axis[a], table->n[a], table->x[a], &axis, error);
-        (void)sqlite3_bind_int(w->put_table, 8 + a, axis);
+        (void)sqlite3_bind_int(w->put_table, 9 + a, axis);
     }
     if (status != GM_OK)
         return status;
@@ -121,6 +121,8 @@ static gm_status write_table(axis_writer *w, const gm_map *map, int t, gm_error 
     bind_or_null(w->put_table, 5, table->key.gear[1]);
     bind_direction(w->put_table, 6, table->key.direction[0]);
     bind_direction(w->put_table, 7, table->key.direction[1]);
+    if (table->key.line != 0.0)
+        (void)sqlite3_bind_double(w->put_table, 8, table->key.line);
     return gm_db_step(w->db, w->put_table, error);
 }
 
@@ -137,7 +139,7 @@ static gm_status prepare(axis_writer *w, const gm_map *map, gm_error *error)
     if (status == GM_OK)
         status = gm_db_prepare(w->db,
                                "INSERT INTO map_table VALUES "
-                               "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, 'N.m')",
+                               "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, 'N.m')",
                                &w->put_table, error);
     return status;
 }

@@ -80,6 +80,7 @@ static void add_table(gm_sha256 *sum, const gm_map_table *table)
         gm_sha256_int(sum, table->key.gear[p]);
     for (int d = 0; d < 2; d++)
         gm_sha256_int(sum, table->key.direction[d]);
+    gm_sha256_double(sum, table->key.line);
     gm_sha256_int(sum, table->n_axes);
     for (int a = 0; a < table->n_axes; a++)
         add_doubles(sum, table->n[a], table->x[a]);

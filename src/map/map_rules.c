@@ -23,8 +23,7 @@ static const gm_symbol_rule rules[GM_SYMBOLS] = {
     [GM_DRAG] = {"drag", "drag", true, GM_GEARS_NONE, 2, 2, {PATH_SPEED, OUTPUT_SPEED}},
     [GM_REACTION] = {"reaction", "reaction of the drag", true, GM_GEARS_NONE, 2,
                      2, {PATH_SPEED, OUTPUT_SPEED}},
-    [GM_LINE_JUMP] = {"line_jump", "drag jump of an idling gear", true,
-                      GM_GEARS_OF_PATH, 1, 1, {OUTPUT_SPEED}},
+    [GM_LINE_JUMP] = {"line_jump", "drag jump", true, GM_GEARS_NONE, 1, 1, {OUTPUT_SPEED}},
     [GM_COUPLING] = {"coupling", "coupling of the input shafts", false, GM_GEARS_NONE, 0,
                      1, {{"relative_speed", "rad/s", true}}},
 };
@@ -96,6 +95,11 @@ void gm_map_key_text(const gm_map *map, const gm_table_key *key, char text[GM_KE
         add_words(&w, separator, direction_words[key->direction[d]]);
         separator = ", ";
     }
+    if (key->line != 0.0) {
+        char number[32];
+        (void)snprintf(number, sizeof number, "line %.6g", key->line);
+        add_words(&w, separator, number);
+    }
     if (separator[0] == ',')
         add_words(&w, ")", "");
 }
@@ -114,6 +118,8 @@ int gm_map_key_compare(const gm_table_key *a, const gm_table_key *b)
         order = compare_int(a->gear[p], b->gear[p]);
     for (int d = 0; order == 0 && d < 2; d++)
         order = compare_int(a->direction[d], b->direction[d]);
+    if (order == 0)
+        order = (a->line > b->line) - (a->line < b->line);
     return compare_int(order, 0);
 }
 
@@ -136,7 +142,8 @@ bool gm_map_key_fits(const gm_table_key *key, int n_paths)
     if (!rule ||
         (rule->path ? key->path < 0 || key->path >= n_paths : key->path != GM_MAP_ANY))
         return false;
-    if (!gears_fit(key, rule->gears, n_paths))
+    if (!gears_fit(key, rule->gears, n_paths) || !isfinite(key->line) ||
+        (key->line != 0.0) != (key->symbol == GM_LINE_JUMP))
         return false;
     for (int d = 0; d < 2; d++) {
         bool named = key->direction[d] == GM_FORWARD || key->direction[d] == GM_BACKWARD;

@@ -62,6 +62,7 @@ static const schema_table tables[] = {
              "  gear_1 INTEGER,\n"
              "  direction_0 TEXT " IS_DIRECTION("direction_0") ",\n"
              "  direction_1 TEXT " IS_DIRECTION("direction_1") ",\n"
+             "  line_ratio REAL CHECK (typeof(line_ratio) IN ('real', 'null')),\n"
              "  axis_0 INTEGER NOT NULL REFERENCES axis,\n"
              "  axis_1 INTEGER REFERENCES axis,\n"
              "  axis_2 INTEGER REFERENCES axis,\n"
@@ -138,7 +139,7 @@ static const char *const views[] = {
     DRAG_VIEW("v_drag", "drag", "drag_torque_Nm"),
     DRAG_VIEW("v_reaction", "reaction", "reaction_torque_Nm"),
 
-    "CREATE VIEW v_line_jump AS SELECT p.name AS path, " GEAR ",\n"
+    "CREATE VIEW v_line_jump AS SELECT p.name AS path, t.line_ratio,\n"
     "  t.direction_0 AS output_direction, " RPM("a") " AS output_speed_rpm,\n"
     "  v.value AS jump_torque_Nm\n"
     VALUES PATH AXIS("a", "axis_0", "i") SYMBOL("line_jump"),

@@ -76,28 +76,32 @@ static gm_status build_gear(const builder *b, int p, int g)
     return GM_OK;
 }
 
-/* One line for each gear of the path that has a jump in at least one direction. */
-static void build_lines(const builder *b, int p)
+static gm_drag_line *line_of(const builder *b, int p, int *n, double ratio)
 {
-    const gm_map_path *path = &b->map->paths[p];
+    gm_drag_line *lines = b->view->lines[p];
+    for (int i = 0; i < *n; i++)
+        if (lines[i].ratio == ratio)
+            return &lines[i];
+    lines[*n] = (gm_drag_line){ratio, {zero_table, zero_table}};
+    return &lines[(*n)++];
+}
+
+/* One line for each ratio at which the path's drag jumps in at least one direction. */
+static gm_status build_lines(const builder *b, int p)
+{
     int n = 0;
-    for (int g = 0; g < path->n_gears; g++) {
-        gm_drag_line *line = &b->view->lines[p][n];
-        gm_table_key key = gm_table_key_of(GM_LINE_JUMP);
-        int found = 0;
-        key.path = p;
-        key.gear[p] = path->gears[g].number;
-        line->ratio = path->gears[g].ratio;
-        for (int d = 0; d < 2; d++) {
-            key.direction[0] = d;
-            const gm_map_table *table = gm_map_find(b->map, &key);
-            line->jump[d] = table ? table1_of(table) : zero_table;
-            found += table != NULL;
-        }
-        n += found > 0;
+    b->view->lines[p] = gm_calloc((size_t)b->map->n_tables, sizeof *b->view->lines[p]);
+    if (!b->view->lines[p])
+        return gm_fail(b->error, GM_ERR_MEMORY, "no memory to view the map");
+    for (int t = 0; t < b->map->n_tables; t++) {
+        const gm_map_table *table = &b->map->tables[t];
+        if (table->key.symbol == GM_LINE_JUMP && table->key.path == p)
+            line_of(b, p, &n, table->key.line)->jump[table->key.direction[0]] =
+                table1_of(table);
     }
     b->view->reduced.path[p].n_lines = n;
     b->view->reduced.path[p].lines = b->view->lines[p];
+    return GM_OK;
 }
 
 static gm_status build_drag(const builder *b, int p, gm_symbol symbol,
@@ -123,9 +127,7 @@ static gm_status build_path(const builder *b, int p)
     gm_path *path = &b->view->reduced.path[p];
     gm_status status = GM_OK;
     b->view->gears[p] = gm_calloc((size_t)from->n_gears, sizeof *b->view->gears[p]);
-    /* one more than gears: build_lines fills a line before it knows whether it counts */
-    b->view->lines[p] = gm_calloc((size_t)from->n_gears + 1, sizeof *b->view->lines[p]);
-    if (!b->view->gears[p] || !b->view->lines[p])
+    if (!b->view->gears[p])
         return gm_fail(b->error, GM_ERR_MEMORY, "no memory to view the map");
     path->inertia = from->inertia;
     path->sync_torque = from->sync_torque;
@@ -137,9 +139,7 @@ static gm_status build_path(const builder *b, int p)
         status = build_drag(b, p, GM_DRAG, path->drag);
     if (status == GM_OK)
         status = build_drag(b, p, GM_REACTION, path->reaction);
-    if (status == GM_OK)
-        build_lines(b, p);
-    return status;
+    return status == GM_OK ? build_lines(b, p) : status;
 }
 
 static int gear_number(const gm_map_path *path, int g)

@@ -268,3 +268,48 @@ int gm_gearset_kink_speeds(const gm_gearset *gearset, int p, int number, int n_m
     sort_ascending(count, speed);
     return count;
 }
+
+/* Add x to the ascending list unless it is there: equal but for rounding. */
+static int insert_once(int n, int n_max, double *list, double x)
+{
+    for (int i = 0; i < n; i++)
+        if (fabs(list[i] - x) <= 1e-9 * fabs(x))
+            return n;
+    if (n == n_max)
+        return n;
+    list[n] = x;
+    sort_ascending(n + 1, list);
+    return n + 1;
+}
+
+/* The ratio at which bearing b stands still while path and output turn; 0 where its speed
+ * does not depend on both, or also on another path. */
+static double line_of_bearing(const gm_configuration_rows *rows,
+                              const gm_bearing_element *b, int column)
+{
+    double s[GM_MAX_FLANGES] = {0.0};
+    for (int i = 0; i < rows->n_independent; i++) {
+        double on = b->on == GM_HOUSING ? 0.0 : rows->speed_of[b->on * rows->n_independent + i];
+        s[i] = rows->speed_of[b->body * rows->n_independent + i] - on;
+        if (i != 0 && i != column && s[i] != 0.0)
+            return 0.0;
+    }
+    return s[column] != 0.0 ? -s[0] / s[column] : 0.0;
+}
+
+int gm_gearset_drag_lines(const gm_gearset *gearset, int p, int n_max, double *ratio)
+{
+    const int neutral[GM_MAX_INPUT_PATHS] = {0};
+    gm_configuration_rows rows;
+    if (gm_configuration_rows_make(gearset, neutral, &rows, NULL) != GM_OK)
+        return 0;
+    int n = 0, column = column_of(&rows, 1 + p);
+    for (int i = 0; i < gearset->n_bearings; i++) {
+        const gm_bearing_element *b = &gearset->bearings[i];
+        double line = line_of_bearing(&rows, b, column);
+        if (b->law.data.friction != GM_FRICTION_NONE && line != 0.0)
+            n = insert_once(n, n_max, ratio, line);
+    }
+    gm_configuration_rows_clear(&rows);
+    return n;
+}

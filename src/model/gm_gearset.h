@@ -50,6 +50,11 @@ double gm_gearset_sync_torque(const gm_gearset *gearset, int p);
 int gm_gearset_kink_speeds(const gm_gearset *gearset, int p, int number, int n_max,
                            double *speed);
 
+/** Ratios w_path / w_output of path p in neutral at which a bearing between a part that
+ *  turns with the path and one that turns with the output does not turn: where the drag on
+ *  the path jumps. Ascending, each once, at most n_max. Returns their number. */
+int gm_gearset_drag_lines(const gm_gearset *gearset, int p, int n_max, double *ratio);
+
 /** Workspace of the steady balance for one thread; keeps what does not change while the
  *  configuration and the speeds stay. */
 typedef struct gm_balance gm_balance;

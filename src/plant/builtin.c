@@ -18,6 +18,11 @@ static int kink_speeds(const void *self, int p, int number, int n_max, double *s
     return gm_gearset_kink_speeds(self, p, number, n_max, speed);
 }
 
+static int drag_lines(const void *self, int p, int n_max, double *ratio)
+{
+    return gm_gearset_drag_lines(self, p, n_max, ratio);
+}
+
 static gm_status work_create(const void *self, void **work, gm_error *error)
 {
     gm_balance *balance;
@@ -75,6 +80,7 @@ static void result(const void *work, const double *x, gm_steady_result *r)
 static const gm_plant_class builtin_class = {
     .kinematics = kinematics,
     .kink_speeds = kink_speeds,
+    .drag_lines = drag_lines,
     .work_create = work_create,
     .work_destroy = work_destroy,
     .set_point = set_point,

@@ -48,21 +48,15 @@ static int insert_sorted(int n, double *x, double value)
     return n + 1;
 }
 
-/* Speeds at which a drag of path p jumps: rest, and in step with each of its gears. */
-static gm_status find_breaks(const gm_plant *plant, int p, double w_o, int *n,
-                             double *breaks, gm_error *error)
+/* Speeds at which a drag of path p jumps: rest, and in step with parts of the output. */
+static int find_breaks(const gm_plant *plant, int p, double w_o, double *breaks)
 {
-    *n = insert_sorted(0, breaks, 0.0);
-    for (int i = 0; i < plant->info.path[p].n_gears && *n < MAX_BREAKS; i++) {
-        int gear[GM_MAX_INPUT_PATHS] = {0};
-        gm_kinematics k;
-        gear[p] = plant->info.path[p].gears[i].number;
-        gm_status status = plant->is->kinematics(plant->self, gear, &k, error);
-        if (status != GM_OK)
-            return status;
-        *n = insert_sorted(*n, breaks, k.ratio[p] * w_o);
-    }
-    return GM_OK;
+    double ratio[MAX_BREAKS];
+    int n = insert_sorted(0, breaks, 0.0);
+    int lines = plant->is->drag_lines(plant->self, p, MAX_BREAKS, ratio);
+    for (int i = 0; i < lines; i++)
+        n = insert_sorted(n, breaks, ratio[i] * w_o);
+    return n;
 }
 
 /* Root in [low, high], torque < 0 just above low and > 0 just below high. */
@@ -142,15 +136,12 @@ gm_status gm_steady_solve_free(gm_steady_solver *solver, int p, gm_steady_point 
                                gm_error *error)
 {
     double breaks[MAX_BREAKS + 1], torque;
-    int n;
     gm_free_path found = {0.0, 0};
     search s = {solver, point, result, 1 + p, error};
     const gm_plant *plant = gm_steady_solver_plant(solver);
     gm_status status = torque_at(&s, 0.0, 1.0, &torque);
     if (status == GM_OK)
-        status = find_breaks(plant, p, result->speed[0], &n, breaks, error);
-    if (status == GM_OK)
-        status = locate(&s, n, breaks, &found);
+        status = locate(&s, find_breaks(plant, p, result->speed[0], breaks), breaks, &found);
     if (status == GM_OK)
         status = found.sticks ? held_between(&s, found.speed)
                               : torque_at(&s, found.speed, 1.0, &torque);

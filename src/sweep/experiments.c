@@ -86,7 +86,7 @@ static gm_status line_row(row *r)
 {
     const gm_map *map = r->plan->map;
     int p = r->table->key.path;
-    double ratio = gm_sweep_ratio(map, p, r->table->key.gear[p]);
+    double ratio = r->table->key.line;
     double sigma = sign_of(r->table->key.direction[0]);
     double w = sigma * line_speed(r, ratio);
     double drag[2];
@@ -182,18 +182,15 @@ typedef struct steps {
 
 static steps steps_at(const row *r, int p, int output_direction, int output_node)
 {
-    const gm_map *map = r->plan->map;
+    const gm_sweep_plan *plan = r->plan;
     double sigma = sign_of(output_direction);
     int at_rest = r->point.speed[0] == 0.0 && r->point.speed[1 + p] == 0.0;
     const double *w = at_rest ? r->point.direction : r->point.speed;
     steps sum = {0.0, 0.0};
-    for (int g = 0; g < map->paths[p].n_gears; g++) {
-        double ratio = map->paths[p].gears[g].ratio;
-        gm_table_key key = gm_table_key_of(GM_LINE_JUMP);
-        key.path = p;
-        key.gear[p] = map->paths[p].gears[g].number;
-        key.direction[0] = output_direction;
-        double half = 0.5 * gm_map_find(map, &key)->value[output_node];
+    for (int i = 0; i < plan->n_lines[p]; i++) {
+        double ratio = plan->line[p][i];
+        gm_table_key key = gm_sweep_line_key(p, ratio, output_direction);
+        double half = 0.5 * gm_map_find(plan->map, &key)->value[output_node];
         double side = sgn(w[1 + p] - ratio * w[0]);
         sum.drag += half * side;
         sum.reaction -= ratio * half * (side - sgn(-ratio * sigma));
@@ -204,9 +201,8 @@ static steps steps_at(const row *r, int p, int output_direction, int output_node
 /* A node that happens to lie on a line is taken just above it. */
 static void leave_lines(row *r, int p)
 {
-    const gm_map *map = r->plan->map;
-    for (int g = 0; g < map->paths[p].n_gears; g++) {
-        double on = map->paths[p].gears[g].ratio * r->point.speed[0];
+    for (int i = 0; i < r->plan->n_lines[p]; i++) {
+        double on = r->plan->line[p][i] * r->point.speed[0];
         double distance = LINE_DISTANCE * fabs(on);
         if (r->point.speed[1 + p] != 0.0 && fabs(r->point.speed[1 + p] - on) < distance)
             r->point.speed[1 + p] = on + distance;

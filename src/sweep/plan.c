@@ -48,6 +48,15 @@ gm_table_key gm_sweep_load_key(int path, int gear, int direction)
     return key;
 }
 
+gm_table_key gm_sweep_line_key(int path, double line, int direction)
+{
+    gm_table_key key = gm_table_key_of(GM_LINE_JUMP);
+    key.path = path;
+    key.line = line;
+    key.direction[0] = direction;
+    return key;
+}
+
 gm_table_key gm_sweep_configuration_key(gm_symbol symbol, const gm_map *map,
                                         const int *gear, int direction)
 {
@@ -196,16 +205,24 @@ static gm_status plan_coupling(builder *b)
     return status != GM_OK ? status : add_jobs(b, job, b->axis[0].n);
 }
 
+static gm_status find_lines(builder *b, int p)
+{
+    gm_sweep_plan *plan = b->plan;
+    plan->n_lines[p] =
+        b->plant->is->drag_lines(b->plant->self, p, GM_SWEEP_MAX_LINES, plan->line[p]);
+    if (plan->n_lines[p] < GM_SWEEP_MAX_LINES)
+        return GM_OK;
+    return gm_fail(b->error, GM_ERR_ARGUMENT,
+                   "%s: the drag of path %s jumps on %d lines or more, fewer are possible",
+                   b->plant->info.name, b->map->paths[p].name, GM_SWEEP_MAX_LINES);
+}
+
 static gm_status plan_lines(builder *b, int p)
 {
-    const gm_map_path *path = &b->map->paths[p];
-    gm_status status = GM_OK;
-    for (int i = 0; i < 2 * path->n_gears && status == GM_OK; i++) {
-        gm_table_key key = gm_table_key_of(GM_LINE_JUMP);
+    gm_status status = find_lines(b, p);
+    for (int i = 0; i < 2 * b->plan->n_lines[p] && status == GM_OK; i++) {
+        gm_table_key key = gm_sweep_line_key(p, b->plan->line[p][i / 2], i % 2);
         gm_job job = {GM_JOB_LINE, 1, 0, -1, 0, 2};
-        key.path = p;
-        key.gear[p] = path->gears[i / 2].number;
-        key.direction[0] = i % 2;
         b->axis[0] = b->free_output;
         status = add_table(b, &key, 1, &job.table);
         if (status == GM_OK)

@@ -17,6 +17,7 @@
 #include "sweep/gm_sweep.h"
 
 #define GM_SWEEP_PHASES 3
+#define GM_SWEEP_MAX_LINES 32 /* drag lines of one path */
 
 typedef enum gm_job_kind {
     GM_JOB_COUPLING,
@@ -42,6 +43,8 @@ typedef struct gm_sweep_plan {
     const gm_plant *plant;
     gm_map *map;
     gm_table1 coupling; /* view of the map's table; value NULL: none */
+    int n_lines[GM_MAX_PATHS];
+    double line[GM_MAX_PATHS][GM_SWEEP_MAX_LINES]; /* ratios of the drag lines */
     int n_reference;
     double *reference_speed; /* [n_reference] |w_o|, the output axis of N and R */
     double *reference[2];    /* by direction: torque of the output, all else at rest */
@@ -62,6 +65,9 @@ gm_table_key gm_sweep_load_key(int path, int gear, int direction);
 /** Key of P or X: gears are numbers (gear[1] unused with one path). */
 gm_table_key gm_sweep_configuration_key(gm_symbol symbol, const gm_map *map,
                                         const int *gear, int direction);
+
+/** Key of the jump on a drag line of path p. direction: of the output. */
+gm_table_key gm_sweep_line_key(int path, double line, int direction);
 
 /** Ratio of a gear number of path p; 0 for neutral. */
 double gm_sweep_ratio(const gm_map *map, int p, int number);

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #define MAX_GEARS 32
+#define MAX_LINES 32
 
 typedef struct run {
     const gm_plant *plant;
@@ -16,6 +17,8 @@ typedef struct run {
     gm_verify_result *result;
     gm_error *error;
     double ratio[GM_MAX_INPUT_PATHS][MAX_GEARS]; /* of every gear */
+    int n_lines[GM_MAX_INPUT_PATHS];
+    double line[GM_MAX_INPUT_PATHS][MAX_LINES]; /* ratios where the drag jumps */
     double output_max;
     int n_draws[GM_VERIFY_GROUPS];
     gm_verify_draw *draws[GM_VERIFY_GROUPS];
@@ -50,6 +53,9 @@ static gm_status find_ratios(run *r)
             smallest = fmin(smallest, fabs(kinematics.ratio[p]));
         }
     r->output_max = info->speed_max / smallest;
+    for (int p = 0; p < info->n_paths; p++)
+        r->n_lines[p] =
+            r->plant->is->drag_lines(r->plant->self, p, MAX_LINES, r->line[p]);
     return GM_OK;
 }
 
@@ -71,8 +77,8 @@ static gm_status add_case(run *r, gm_verify_group group, int path, const int *ge
                                  .direction = d ? -1 : 1,
                                  .output_max = r->output_max};
         for (int p = 0; p < info->n_paths; p++) {
-            draw->line[p] = r->ratio[p];
-            draw->n_lines[p] = info->path[p].n_gears;
+            draw->line[p] = r->line[p];
+            draw->n_lines[p] = r->n_lines[p];
             if (gear[p] < 0)
                 continue;
             draw->gear[p] = info->path[p].gears[gear[p]].number;

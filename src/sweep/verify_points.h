@@ -16,7 +16,7 @@ typedef struct gm_verify_draw {
     int direction;                          /* of the output */
     double ratio[GM_MAX_INPUT_PATHS];       /* of engaged paths */
     double output_max;                      /* largest |w_o|, rad/s */
-    const double *line[GM_MAX_INPUT_PATHS]; /* ratios of all gears of a path */
+    const double *line[GM_MAX_INPUT_PATHS]; /* ratios of the path's drag lines */
     int n_lines[GM_MAX_INPUT_PATHS];
 } gm_verify_draw;
 

@@ -26,6 +26,9 @@ static const double output_speed[] = {0.0, 0.1, 33.3, 120.0};
 static const double torque[] = {-250.0, -100.0, -0.3, 0.0, 0.1, 40.0, 250.0};
 static const double relative[] = {-300.0, -1.0, 0.0, 1.0, 300.0};
 
+/* Drag lines of the fixture, by path and gear. */
+const double fixture_line[2][2] = {{3.25, 7.5}, {-6.0, 4.125}};
+
 typedef struct frame {
     const fixture_options *options;
     int n;
@@ -57,9 +60,12 @@ static void want_path(frame *f, const gm_map *map, int p)
         key.gear[p] = map->paths[p].gears[i / 2].number;
         key.direction[0] = i % 2;
         want(f, key);
+        int number = key.gear[p];
         key.symbol = GM_LINE_JUMP;
+        key.gear[p] = GM_MAP_ANY;
+        key.line = fixture_line[p][i / 2];
         /* gear 2 does not drag; gear 3 only forward */
-        if (f->options->optional && key.gear[p] != 2 && (key.gear[p] != 3 || i % 2 == 0))
+        if (f->options->optional && number != 2 && (number != 3 || i % 2 == 0))
             want(f, key);
     }
 }
@@ -152,6 +158,7 @@ static void fill_values(gm_map_table *t)
     for (int p = 0; p < GM_MAX_PATHS; p++)
         state = state * 1009u + (uint64_t)(t->key.gear[p] + 5);
     state = state * 1013u + (uint64_t)(t->key.direction[0] * 3 + t->key.direction[1]);
+    state = state * 1019u + (uint64_t)(8.0 * t->key.line + 100.0);
     (void)fixture_random(&state);
     for (int i = 0; i < gm_map_table_size(t); i++)
         t->value[i] = i == 0 ? 0.0 : 8.0 * fixture_random(&state) - 0.05;

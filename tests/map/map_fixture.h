@@ -35,4 +35,7 @@ void fixture_fill(gm_map *map, const gm_map *from);
 /** True when both maps say the same, bit for bit; the tool's version apart. */
 bool fixture_equal(const gm_map *a, const gm_map *b);
 
+/** Ratios of the fixture's drag lines by path and gear (gear 2 has none). */
+extern const double fixture_line[2][2];
+
 #endif

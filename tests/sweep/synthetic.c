@@ -64,10 +64,15 @@ double synthetic_coupling(double relative_speed)
     return 0.0004 * relative_speed; /* linear: P and D see it interpolated */
 }
 
-double synthetic_jump(int p, int number, int backward, double w)
+/* Its gears' and one more: an intermediate gear that turns on an output shaft. */
+double synthetic_line(int p, int i)
 {
-    return (0.05 + 0.01 * index_of(p, number) + 0.02 * p + 0.005 * backward) *
-           (1.0 + 0.02 * w);
+    return i < 3 ? ratios[p][i] : p == 0 ? 3.1 : -2.7;
+}
+
+double synthetic_jump(int p, int i, int backward, double w)
+{
+    return (0.05 + 0.01 * i + 0.02 * p + 0.005 * backward) * (1.0 + 0.02 * w);
 }
 
 double synthetic_drag(int p, double w_n, double sign, double w_o)
@@ -118,11 +123,12 @@ static void neutral_path(const work *w, int p, double *drag, double *reaction)
     int backward = output_sign(w) < 0;
     *drag = synthetic_drag(p, w_n, side_of(w, p, 0.0), w_o);
     *reaction = synthetic_reaction(p, w_n, w_o);
-    for (int g = 0; g < 3; g++) {
-        double half = 0.5 * synthetic_jump(p, numbers[p][g], backward, fabs(w_o));
-        double side = side_of(w, p, ratios[p][g]);
+    for (int i = 0; i < SYNTHETIC_LINES; i++) {
+        double ratio = synthetic_line(p, i);
+        double half = 0.5 * synthetic_jump(p, i, backward, fabs(w_o));
+        double side = side_of(w, p, ratio);
         *drag += half * side;
-        *reaction -= ratios[p][g] * half * (side - sgn(-ratios[p][g] * output_sign(w)));
+        *reaction -= ratio * half * (side - sgn(-ratio * output_sign(w)));
     }
 }
 
@@ -289,6 +295,15 @@ static gm_status kinematics(const void *self, const int *gear, gm_kinematics *k,
     return GM_OK;
 }
 
+static int drag_lines(const void *self, int p, int n_max, double *ratio)
+{
+    (void)self;
+    int n = n_max < SYNTHETIC_LINES ? n_max : SYNTHETIC_LINES;
+    for (int i = 0; i < n; i++)
+        ratio[i] = synthetic_line(p, i);
+    return n;
+}
+
 static int kink_speeds(const void *self, int p, int number, int n_max, double *speed)
 {
     (void)self;
@@ -299,7 +314,7 @@ static int kink_speeds(const void *self, int p, int number, int n_max, double *s
 }
 
 static const gm_plant_class synthetic_class = {
-    kinematics, kink_speeds, work_create, work_destroy, set_point, size,
+    kinematics, kink_speeds, drag_lines, work_create, work_destroy, set_point, size,
     entries,    pass,        residual,    pattern,      jacobian,  result,
 };
 

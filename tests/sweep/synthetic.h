@@ -13,6 +13,7 @@
 
 #define SYNTHETIC_SPEED_MAX 500.0
 #define SYNTHETIC_TORQUE_MAX 40.0
+#define SYNTHETIC_LINES 4
 
 typedef struct synthetic {
     double load_factor;      /* on D; 1 */
@@ -32,7 +33,9 @@ double synthetic_load(const synthetic *s, int p, int number, int backward, doubl
                       double torque);
 double synthetic_both(const int *gear, int backward, double w, const double *torque);
 double synthetic_coupling(double relative_speed);
-double synthetic_jump(int p, int number, int backward, double w);
+/* Drag line i of path p: its ratio, and the jump of N on it. */
+double synthetic_line(int p, int i);
+double synthetic_jump(int p, int i, int backward, double w);
 /* Without the steps on the lines; sign: of w_n, for its limit at zero. */
 double synthetic_drag(int p, double w_n, double sign, double w_o);
 double synthetic_reaction(int p, double w_n, double w_o);

@@ -170,9 +170,9 @@ static void correction_under_both_loads_is_found(void **state)
 }
 
 /* Held from the first node on at which the line has left the range of the path. */
-static double held_speed(const gm_map_table *t, int axis, int number, int node)
+static double held_speed(const gm_map_table *t, int axis, double ratio, int node)
 {
-    double leaves = SYNTHETIC_SPEED_MAX / fabs(synthetic_ratio(t->key.path, number));
+    double leaves = SYNTHETIC_SPEED_MAX / fabs(ratio);
     int held = 0;
     while (held < t->n[axis] && t->x[axis][held] < leaves)
         held++;
@@ -181,18 +181,20 @@ static double held_speed(const gm_map_table *t, int axis, int number, int node)
 
 static double jump(const fixture *f, const gm_map_table *t, int i, int j, int k)
 {
-    int p = t->key.path, number = t->key.gear[p];
+    int p = t->key.path, line = 0;
     (void)f;
     (void)j;
     (void)k;
-    return synthetic_jump(p, number, t->key.direction[0], held_speed(t, 0, number, i));
+    while (synthetic_line(p, line) != t->key.line)
+        line++;
+    return synthetic_jump(p, line, t->key.direction[0], held_speed(t, 0, t->key.line, i));
 }
 
 static void jumps_on_the_lines_are_found(void **state)
 {
     (void)state;
-    assert_int_equal(check_symbol(&two, GM_LINE_JUMP, jump), 2 * 3 * 2);
-    assert_int_equal(check_symbol(&one, GM_LINE_JUMP, jump), 3 * 2);
+    assert_int_equal(check_symbol(&two, GM_LINE_JUMP, jump), 2 * SYNTHETIC_LINES * 2);
+    assert_int_equal(check_symbol(&one, GM_LINE_JUMP, jump), SYNTHETIC_LINES * 2);
 }
 
 /* The steps that the tables leave out, minus those the gearset has. */
@@ -206,12 +208,12 @@ static steps steps_left(const fixture *f, const gm_map_table *t, int i, int j)
     double sigma_n = sign_of(t->key.direction[0]), sigma_o = sign_of(t->key.direction[1]);
     double w_n = sigma_n * t->x[0][i], w_o = sigma_o * t->x[1][j];
     steps sum = {0.0, 0.0};
-    for (int g = 0; g < 3; g++) {
-        int number = f->map->paths[p].gears[g].number;
-        double ratio = synthetic_ratio(p, number), w = fabs(w_o);
-        double held = held_speed(t, 1, number, j);
-        double half = 0.5 * (synthetic_jump(p, number, sigma_o < 0, w) -
-                             synthetic_jump(p, number, sigma_o < 0, held));
+    (void)f;
+    for (int line = 0; line < SYNTHETIC_LINES; line++) {
+        double ratio = synthetic_line(p, line), w = fabs(w_o);
+        double held = held_speed(t, 1, ratio, j);
+        double half = 0.5 * (synthetic_jump(p, line, sigma_o < 0, w) -
+                             synthetic_jump(p, line, sigma_o < 0, held));
         double side = w_n == 0.0 && w_o == 0.0 ? sgn(sigma_n - ratio * sigma_o)
                                                : sgn(w_n - ratio * w_o);
         sum.drag += half * side;
