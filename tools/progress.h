@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * What a sweep shows while it runs, and how it is stopped. The bar appears only on a
- * terminal. SIGINT and SIGTERM ask the sweep to stop at its next report; a second signal
- * ends the program at once (the journal survives that too).
+ * What a sweep shows while it runs, and how a stage is stopped. The bar appears only on a
+ * terminal. SIGINT and SIGTERM ask a sweep to stop at its next report; the other stages
+ * end first and clean up behind them. A second signal ends the program at once (a sweep's
+ * journal survives that too).
  */
 #ifndef PROGRESS_H
 #define PROGRESS_H
@@ -15,7 +16,7 @@ typedef struct gm_progress {
     bool shown; /* something stands on the line */
 } gm_progress;
 
-/** From here to gm_progress_end signals stop the sweep instead of the program. */
+/** From here to gm_progress_end signals stop the stage instead of the program. */
 void gm_progress_begin(gm_progress *progress);
 
 /** A gm_sweep_report; user is the gm_progress. */
@@ -24,7 +25,7 @@ int gm_progress_report(void *user, const gm_sweep_progress *state);
 /** Clear the bar, give signals their default effect back. */
 void gm_progress_end(gm_progress *progress);
 
-/** True once a signal has asked to stop. */
+/** True when a signal has asked to stop since gm_progress_begin. */
 bool gm_progress_interrupted(void);
 
 #endif

@@ -9,6 +9,7 @@
 #include <math.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 double gm_stage_clock(void)
 {
@@ -71,9 +72,16 @@ gm_status gm_stage_bake(const gm_map *map, const char *compiler, const char *pat
     if (status != GM_OK)
         return status;
     const gm_bake_options options = {.share = share, .compiler = compiler};
+    gm_progress progress;
+    gm_progress_begin(&progress);
     status = gm_bake_fmu2(map, &options, path, &stage->summary, error);
+    gm_progress_end(&progress);
     stage->elapsed = gm_stage_clock() - start;
-    return status;
+    if (!gm_progress_interrupted())
+        return status;
+    if (status == GM_OK)
+        (void)unlink(path);
+    return gm_fail(error, GM_ERR_INTERRUPTED, "interrupted; no component was written");
 }
 
 gm_status gm_stage_verify(const gm_plant *plant, const char *fmu, int points, int seed,
@@ -86,10 +94,15 @@ gm_status gm_stage_verify(const gm_plant *plant, const char *fmu, int points, in
     if (status != GM_OK)
         return status;
     const gm_reduced_probe interface = gm_fmu_probe_interface(probe);
+    gm_progress progress;
+    gm_progress_begin(&progress);
     status = gm_verify_steady(plant, &interface, points, (uint64_t)seed, &stage->result,
                               error);
+    gm_progress_end(&progress);
     gm_fmu_probe_close(probe);
     stage->elapsed = gm_stage_clock() - start;
+    if (gm_progress_interrupted())
+        return gm_fail(error, GM_ERR_INTERRUPTED, "interrupted; nothing was verified");
     return status;
 }
 

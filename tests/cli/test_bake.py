@@ -4,10 +4,13 @@
 import os
 import random
 import shutil
+import signal
 import sqlite3
+import subprocess
+import time
 
 import pytest
-from conftest import EXAMPLE, fails, gearmap, result_of, succeeds
+from conftest import COARSE, EXAMPLE, PROGRAM, fails, gearmap, result_of, succeeds
 
 
 def test_bakes_the_same_bytes_twice(example_map, tmp_path):
@@ -54,6 +57,35 @@ def test_a_compiler_that_does_not_exist(example_map, tmp_path):
 
 def test_a_compiler_that_fails(example_map, tmp_path):
     refused(example_map, tmp_path, env={"CC": "false"})
+
+
+@pytest.mark.parametrize("command", ["bake", "reduce"])
+def test_an_interrupted_bake_leaves_nothing(command, example_map, tmp_path):
+    """Ctrl-C on a terminal reaches the compiler too; a compiler that hangs is caught."""
+    compiler, marker = tmp_path / "slow-cc", tmp_path / "marker"
+    compiler.write_text("#!/bin/sh\n"
+                        'case "$*" in *-version*|*-dumpmachine*) exec cc "$@";; esac\n'
+                        f'touch {marker}\nexec sleep 60\n')
+    compiler.chmod(0o755)
+    for name in ("out", "temporary"):
+        (tmp_path / name).mkdir()
+    given = example_map if command == "bake" else EXAMPLE
+    more = [] if command == "bake" else COARSE
+    process = subprocess.Popen(
+        [PROGRAM, command, given, "-o", tmp_path / "out" / "a.fmu", "--compiler", compiler,
+         *more],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
+        env={**os.environ, "TMPDIR": str(tmp_path / "temporary")})
+    deadline = time.monotonic() + 60
+    while not marker.exists():
+        assert process.poll() is None and time.monotonic() < deadline
+        time.sleep(0.01)
+    os.killpg(process.pid, signal.SIGINT)
+    out, err = process.communicate(timeout=30)
+    assert (process.returncode, out) == (1, "")
+    assert err == "gearmap: interrupted; no component was written\n"
+    assert list((tmp_path / "out").iterdir()) == []
+    assert list((tmp_path / "temporary").iterdir()) == []
 
 
 def test_no_sources_to_bake(example_map, tmp_path):
