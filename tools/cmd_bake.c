@@ -15,35 +15,24 @@ typedef struct arguments {
     int json;
 } arguments;
 
+// clang-format off
 static const gm_option options[] = {
-    {.kind = GM_OPTION_OPERAND,
-     .name = "MAP",
-     .required = 1,
+    {.kind = GM_OPTION_OPERAND, .name = "MAP", .required = 1,
      .offset = offsetof(arguments, map),
      .help = "the map to bake"},
-    {.kind = GM_OPTION_TEXT,
-     .name = "output",
-     .letter = 'o',
-     .value = "FMU",
-     .required = 1,
-     .offset = offsetof(arguments, output),
+    {.kind = GM_OPTION_TEXT, .name = "output", .letter = 'o', .value = "FMU",
+     .required = 1, .offset = offsetof(arguments, output),
      .help = "the file to write"},
-    {.kind = GM_OPTION_TEXT,
-     .name = "format",
-     .value = "NAME",
-     .fallback = "fmu2",
+    {.kind = GM_OPTION_TEXT, .name = "format", .value = "NAME", .fallback = "fmu2",
      .offset = offsetof(arguments, format),
      .help = "fmu2: FMI 2.0 Co-Simulation"},
-    {.kind = GM_OPTION_TEXT,
-     .name = "compiler",
-     .value = "COMMAND",
+    {.kind = GM_OPTION_TEXT, .name = "compiler", .value = "COMMAND",
      .offset = offsetof(arguments, compiler),
      .help = "C compiler; default: $CC, else cc, gcc or clang"},
-    {.kind = GM_OPTION_FLAG,
-     .name = "json",
-     .offset = offsetof(arguments, json),
+    {.kind = GM_OPTION_FLAG, .name = "json", .offset = offsetof(arguments, json),
      .help = "print the result as JSON"},
 };
+// clang-format on
 
 static void print_result(const arguments *a, const gm_bake_stage *stage)
 {

@@ -13,25 +13,19 @@ typedef struct arguments {
     int json;
 } arguments;
 
+// clang-format off
 static const gm_option options[] = {
-    {.kind = GM_OPTION_OPERAND,
-     .name = "FILE",
-     .required = 1,
+    {.kind = GM_OPTION_OPERAND, .name = "FILE", .required = 1,
      .offset = offsetof(arguments, description),
      .help = "the description of the gearset"},
-    {.kind = GM_OPTION_TEXT,
-     .name = "output",
-     .letter = 'o',
-     .value = "MAP",
-     .required = 1,
-     .offset = offsetof(arguments, output),
+    {.kind = GM_OPTION_TEXT, .name = "output", .letter = 'o', .value = "MAP",
+     .required = 1, .offset = offsetof(arguments, output),
      .help = "the map to write"},
     GM_SWEEP_OPTIONS(arguments),
-    {.kind = GM_OPTION_FLAG,
-     .name = "json",
-     .offset = offsetof(arguments, json),
+    {.kind = GM_OPTION_FLAG, .name = "json", .offset = offsetof(arguments, json),
      .help = "print the result as JSON"},
 };
+// clang-format on
 
 static gm_status sweep(const arguments *a, gm_error *error)
 {

@@ -14,52 +14,32 @@ typedef struct arguments {
     double oil_temperature;
 } arguments;
 
+// clang-format off
 static const gm_option options[] = {
-    {.kind = GM_OPTION_OPERAND,
-     .name = "FILE",
-     .required = 1,
+    {.kind = GM_OPTION_OPERAND, .name = "FILE", .required = 1,
      .offset = offsetof(arguments, description),
      .help = "the description of the gearset"},
-    {.kind = GM_OPTION_OPERAND,
-     .name = "FMU",
-     .required = 1,
+    {.kind = GM_OPTION_OPERAND, .name = "FMU", .required = 1,
      .offset = offsetof(arguments, fmu),
      .help = "the component made from it"},
-    {.kind = GM_OPTION_FLAG,
-     .name = "steady",
-     .required = 1,
+    {.kind = GM_OPTION_FLAG, .name = "steady", .required = 1,
      .offset = offsetof(arguments, steady),
      .help = "compare steady losses at random points off the grid"},
-    {.kind = GM_OPTION_INTEGER,
-     .name = "points",
-     .value = "N",
-     .low = 1,
-     .high = 1e7,
-     .fallback = "2000",
-     .offset = offsetof(arguments, points),
+    {.kind = GM_OPTION_INTEGER, .name = "points", .value = "N", .low = 1, .high = 1e7,
+     .fallback = "2000", .offset = offsetof(arguments, points),
      .help = "number of points of each kind"},
-    {.kind = GM_OPTION_INTEGER,
-     .name = "seed",
-     .value = "N",
-     .low = 0,
-     .high = 2147483647.0,
-     .fallback = "1",
-     .offset = offsetof(arguments, seed),
+    {.kind = GM_OPTION_INTEGER, .name = "seed", .value = "N", .low = 0,
+     .high = 2147483647.0, .fallback = "1", .offset = offsetof(arguments, seed),
      .help = "start of the random numbers"},
-    {.kind = GM_OPTION_QUANTITY,
-     .name = "oil-temperature",
-     .value = "TEMPERATURE",
-     .unit = "degC",
-     .low = -50,
-     .high = 200,
+    {.kind = GM_OPTION_QUANTITY, .name = "oil-temperature", .value = "TEMPERATURE",
+     .unit = "degC", .low = -50, .high = 200,
      .offset = offsetof(arguments, oil_temperature),
-     .help =
-         "oil temperature at which the component was swept; default: the description's"},
-    {.kind = GM_OPTION_FLAG,
-     .name = "json",
-     .offset = offsetof(arguments, json),
+     .help = "oil temperature at which the component was swept; default: the "
+             "description's"},
+    {.kind = GM_OPTION_FLAG, .name = "json", .offset = offsetof(arguments, json),
      .help = "print the result as JSON"},
 };
+// clang-format on
 
 static gm_status verify(const arguments *a, gm_error *error)
 {

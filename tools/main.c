@@ -25,7 +25,8 @@ static void print_overview(FILE *out)
     for (int i = 0; i < N_COMMANDS; i++)
         fprintf(out, "  %-10s%s\n", commands[i]->name, commands[i]->summary);
     fputs(
-        "  help      print the help of a command (gearmap help COMMAND)\n\n"
+        "  help      print the help of a command (gearmap help COMMAND)\n"
+        "            or the format of descriptions (gearmap help format)\n\n"
         "Results go to the standard output (--json for machines), words to the standard "
         "error.\nExit code: 0 done, 1 failed, 2 wrong usage.\n",
         out);

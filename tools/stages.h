@@ -73,54 +73,29 @@ double gm_stage_clock(void);
  * `gm_sweep_settings sweep` in their arguments. */
 #define GM_SWEEP_OPTION(type, field)                                                     \
     (offsetof(type, sweep) + offsetof(gm_sweep_settings, field))
+// clang-format off
 #define GM_SWEEP_OPTIONS(type)                                                           \
-    {.kind = GM_OPTION_QUANTITY,                                                         \
-     .name = "speed-step",                                                               \
-     .value = "SPEED",                                                                   \
-     .unit = "rpm",                                                                      \
-     .low = 1,                                                                           \
-     .high = 1e5,                                                                        \
-     .offset = GM_SWEEP_OPTION(type, speed_step),                                        \
-     .help = "uniform speed axis with this step; default: an axis that is dense at low " \
-             "speed"},                                                                   \
-        {.kind = GM_OPTION_QUANTITY,                                                     \
-         .name = "torque-step",                                                          \
-         .value = "TORQUE",                                                              \
-         .unit = "Nm",                                                                   \
-         .low = 0.1,                                                                     \
-         .high = 1e5,                                                                    \
-         .offset = GM_SWEEP_OPTION(type, torque_step),                                   \
-         .help =                                                                         \
-             "uniform torque axis with this step; default: an axis that is dense at "    \
+    {.kind = GM_OPTION_QUANTITY, .name = "speed-step", .value = "SPEED", .unit = "rpm",  \
+     .low = 1, .high = 1e5, .offset = GM_SWEEP_OPTION(type, speed_step),                 \
+     .help = "uniform speed axis with this step; default: an axis that is dense at "     \
+             "low speed"},                                                               \
+    {.kind = GM_OPTION_QUANTITY, .name = "torque-step", .value = "TORQUE", .unit = "Nm", \
+     .low = 0.1, .high = 1e5, .offset = GM_SWEEP_OPTION(type, torque_step),              \
+     .help = "uniform torque axis with this step; default: an axis that is dense at "    \
              "small torque"},                                                            \
-        {.kind = GM_OPTION_QUANTITY,                                                     \
-         .name = "speed-max",                                                            \
-         .value = "SPEED",                                                               \
-         .unit = "rpm",                                                                  \
-         .low = 10,                                                                      \
-         .high = 1e5,                                                                    \
-         .offset = GM_SWEEP_OPTION(type, speed_max),                                     \
-         .help = "largest speed at the input; default: the description's"},              \
-        {.kind = GM_OPTION_QUANTITY,                                                     \
-         .name = "torque-max",                                                           \
-         .value = "TORQUE",                                                              \
-         .unit = "Nm",                                                                   \
-         .low = 1,                                                                       \
-         .high = 1e6,                                                                    \
-         .offset = GM_SWEEP_OPTION(type, torque_max),                                    \
-         .help = "largest torque at the input; default: the description's"},             \
-        {.kind = GM_OPTION_INTEGER,                                                      \
-         .name = "threads",                                                              \
-         .value = "N",                                                                   \
-         .low = 1,                                                                       \
-         .high = 1024,                                                                   \
-         .offset = GM_SWEEP_OPTION(type, threads),                                       \
-         .help = "threads to compute with; default: one per core"},                      \
-    {                                                                                    \
-        .kind = GM_OPTION_QUANTITY, .name = "oil-temperature", .value = "TEMPERATURE",   \
-        .unit = "degC", .low = -50, .high = 200,                                         \
-        .offset = GM_SWEEP_OPTION(type, oil_temperature),                                \
-        .help = "oil temperature; default: the description's"                            \
-    }
+    {.kind = GM_OPTION_QUANTITY, .name = "speed-max", .value = "SPEED", .unit = "rpm",   \
+     .low = 10, .high = 1e5, .offset = GM_SWEEP_OPTION(type, speed_max),                 \
+     .help = "largest speed at the input; default: the description's"},                  \
+    {.kind = GM_OPTION_QUANTITY, .name = "torque-max", .value = "TORQUE", .unit = "Nm",  \
+     .low = 1, .high = 1e6, .offset = GM_SWEEP_OPTION(type, torque_max),                 \
+     .help = "largest torque at the input; default: the description's"},                 \
+    {.kind = GM_OPTION_INTEGER, .name = "threads", .value = "N", .low = 1, .high = 1024, \
+     .offset = GM_SWEEP_OPTION(type, threads),                                           \
+     .help = "threads to compute with; default: one per core"},                          \
+    {.kind = GM_OPTION_QUANTITY, .name = "oil-temperature", .value = "TEMPERATURE",      \
+     .unit = "degC", .low = -50, .high = 200,                                            \
+     .offset = GM_SWEEP_OPTION(type, oil_temperature),                                   \
+     .help = "oil temperature; default: the description's"}
+// clang-format on
 
 #endif

@@ -27,6 +27,7 @@ def test_help_names_every_command():
     for arguments in (["--help"], ["help"], ["-h"]):
         text = succeeds(*arguments).stdout
         assert all(f"  {name} " in text for name in COMMANDS)
+        assert "gearmap help format" in text
 
 
 @pytest.mark.parametrize("command", COMMANDS)
