@@ -149,7 +149,7 @@ typedef struct gm_drag_patch {
 /** Interpolation caches: no influence on results. Zeroed memory is an empty cache.
  *  Directions as in the map's tables. */
 typedef struct gm_reduced_cache {
-    gm_cell1 coupling, parasitic[2], line[GM_MAX_PATHS][GM_CACHED_LINES];
+    gm_cell1 coupling, parasitic[2], line[GM_MAX_PATHS][2][GM_CACHED_LINES];
     gm_cell2 load_loss[GM_MAX_PATHS][2];
     gm_cell2 drag[GM_MAX_PATHS][2][2], reaction[GM_MAX_PATHS][2][2];
     gm_drag_patch patch[GM_MAX_PATHS];

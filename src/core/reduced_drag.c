@@ -42,8 +42,8 @@ static gm_value1 line_jump(const gm_drive *d, int p, int line, const place *q,
 {
     const gm_table1 *jump = &d->map->path[p].lines[line].jump[q->j];
     gm_cell1 local = {0, 0, 0, 0, 0};
-    gm_cell1 *cell = line < GM_CACHED_LINES ? &d->cache->line[p][line] : &local;
-    const gm_value1 v = gm_cell1_at(jump, 1 + q->j, cell, q->y);
+    gm_cell1 *cell = line < GM_CACHED_LINES ? &d->cache->line[p][q->j][line] : &local;
+    const gm_value1 v = gm_cell1_at(jump, 1, cell, q->y);
     *copy = *cell;
     return v;
 }
@@ -306,7 +306,7 @@ static int lines_hold(const gm_drive *d, int p, unsigned ramps, const place *q,
     unsigned now = 0;
     for (int i = 0; i < path->n_lines; i++) {
         const gm_real r = path->lines[i].ratio;
-        const gm_cell1 *c = &d->cache->line[p][i < GM_CACHED_LINES ? i : 0];
+        const gm_cell1 *c = &d->cache->line[p][q->j][i < GM_CACHED_LINES ? i : 0];
         now = 16 * now + 4 * side_of(to->w - r * to->w_o) + side_of(r * to->w_o);
         if (!gm_stays(c->x_low, c->x_high, q->y, to->y)) {
             return 0;

@@ -157,7 +157,8 @@ gm_real gm_substep(const gm_reduced_map *map, const gm_reduced_params *params,
                    gm_reduced_cache *cache, gm_motion *s, int *outside);
 
 /** Table values at *point for the directions in *s: fills s->terms; point->tau_m is
- *  completed first. The output's own terms are left zero while it is held. */
+ *  completed first. Terms of held shafts are zero: R(0, w_o) = 0, and what holds the
+ *  output or a path is not needed for the motion. */
 void gm_terms_at(const gm_drive *d, gm_solution *s, gm_point *point);
 
 /** Terms on the output and the load losses for direction sign of the output (terms->out

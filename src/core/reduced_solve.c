@@ -295,7 +295,7 @@ static gm_real output_excess(const gm_drive *d, const gm_solution *s, gm_real si
         if (d->engaged[p]) {
             at.m[p] = 0;
             at.tau_m[p] = d->tau[p] + (p == 0 ? -t->coupling : t->coupling);
-        } else {
+        } else if (!s->held[p]) {
             gm_drag_terms(d, p, s->sign[p], sign, &at, t);
         }
     }

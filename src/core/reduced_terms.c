@@ -110,7 +110,7 @@ void gm_terms_at(const gm_drive *d, gm_solution *s, gm_point *at)
     for (int p = 0; p < d->n_paths; p++) {
         const gm_real tau = d->tau[p] + (p == 0 ? -c : c);
         at->tau_m[p] = tau - d->inertia[p] * d->ratio[p] * at->a[GM_OUT];
-        if (d->free[p]) {
+        if (d->free[p] && !s->held[p]) {
             gm_drag_terms(d, p, s->sign[p], s->sign[GM_OUT], at, t);
         }
     }
@@ -193,7 +193,7 @@ int gm_terms_hold(const gm_drive *d, gm_solution *s, const gm_point *at,
         return 0;
     }
     for (int p = 0; p < d->n_paths; p++) {
-        if (d->free[p] && !gm_drag_holds(d, s, p, at, to)) {
+        if (d->free[p] && !s->held[p] && !gm_drag_holds(d, s, p, at, to)) {
             return 0;
         }
     }

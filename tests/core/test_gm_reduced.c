@@ -271,7 +271,7 @@ static void the_loss_scale_scales_every_loss(void **state)
 static void refuses_what_is_not_finite_and_keeps_the_state(void **state)
 {
     const hand_spec spec = hand_default();
-    const double bad[3] = {NAN, INFINITY, -INFINITY};
+    const double bad[3] = {(double)NAN, HUGE_VAL, -HUGE_VAL};
     (void)state;
     use(&spec);
     gm_reduced_state s = hand_start(&f.m, 1, 2, 20);
@@ -365,7 +365,8 @@ static void starts_in_the_commanded_gears(void **state)
     assert_int_equal(s.path[0].mode, GM_PATH_NEUTRAL);
     assert_true(s.path[0].w == 11);
     const gm_reduced_state before = s;
-    assert_int_equal(gm_reduced_start(&f.m.map, &in, NAN, w, &s), GM_FLAG_NOT_FINITE);
+    assert_int_equal(gm_reduced_start(&f.m.map, &in, (double)NAN, w, &s),
+                     GM_FLAG_NOT_FINITE);
     assert_memory_equal(&s, &before, sizeof s);
     assert_int_equal(gm_reduced_find_gear(&f.m.map, 0, -1), 0);
     assert_int_equal(gm_reduced_find_gear(&f.m.map, 0, 2), -2);
