@@ -222,7 +222,7 @@ static double cone_torque_of(const gm_description *d, int wheel)
         for (int k = 0; k < d->synchronisers[s].n_wheels; k++)
             if (d->synchronisers[s].wheels[k] == wheel)
                 return d->synchronisers[s].cone_torque;
-    return INFINITY;
+    return (double)INFINITY;
 }
 
 double gm_gearset_sync_torque(const gm_gearset *gearset, int p)
@@ -231,8 +231,8 @@ double gm_gearset_sync_torque(const gm_gearset *gearset, int p)
     const int neutral[GM_MAX_INPUT_PATHS] = {0};
     gm_configuration_rows rows;
     if (gm_configuration_rows_make(gearset, neutral, &rows, NULL) != GM_OK)
-        return NAN;
-    double smallest = INFINITY;
+        return (double)NAN;
+    double smallest = (double)INFINITY;
     int column = column_of(&rows, 1 + p);
     for (int i = 0; i < d->paths[p].n_gears; i++) {
         int w = d->paths[p].gears[i].wheel;
