@@ -54,7 +54,7 @@ static void needs_row_exchanges(void **state)
 static void tells_singular_matrices(void **state)
 {
     (void)state;
-    double dependent[4] = {1.0, 2.0, 2.0, 4.0}, zero[1] = {0.0}, nan[1] = {NAN};
+    double dependent[4] = {1.0, 2.0, 2.0, 4.0}, zero[1] = {0.0}, nan[1] = {(double)NAN};
     int pivot[2];
     assert_false(gm_lu_factor(2, dependent, pivot));
     assert_false(gm_lu_factor(1, zero, pivot));

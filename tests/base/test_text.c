@@ -20,7 +20,7 @@ static void accepts_decimal_numbers(void **state)
                  {"3.", 3.0},      {"1e3", 1e3},   {"1E-3", 1e-3}, {"6.02e+23", 6.02e23},
                  {"0000.10", 0.1}, {"-0", 0.0}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        double value = NAN;
+        double value = (double)NAN;
         assert_true(gm_text_to_double(cases[i].text, &value));
         assert_true(value == cases[i].value);
     }

@@ -37,8 +37,8 @@ static gm_bearing bearing(const char *name, int shaft, double position, int loca
                              .D = 0.062,
                              .B = 0.016,
                              .C0 = 11200.0,
-                             .f0 = NAN,
-                             .f1 = NAN},
+                             .f0 = (double)NAN,
+                             .f1 = (double)NAN},
                     .radial_stiffness = 2e8,
                     .axial_stiffness = 1e8};
     (void)strncpy(b.id.name, name, sizeof b.id.name - 1);
@@ -99,6 +99,6 @@ void reducer_make(reducer *r)
                              .temperature = 353.15,
                              .mesh_lubricant_factor = 0.75,
                              .bearing_mu_ehl = 0.1,
-                             .level = NAN};
+                             .level = (double)NAN};
     (void)strncpy(r->d.name, "reducer", sizeof r->d.name - 1);
 }
