@@ -21,6 +21,7 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,6 +41,7 @@ typedef struct job {
     char identifier[IDENTIFIER_SIZE];
     char guid[48];
     long library_size;
+    mode_t rights; /* of a new file */
     gm_error *error;
 } job;
 
@@ -244,29 +246,38 @@ static gm_status build_package(job *j)
     return status;
 }
 
+/* A new file beside the target, with the rights of any new file; -1 when there cannot be
+ * one. Leftovers of killed programs are passed by. */
+static int create_part(const char *target, char *part, size_t size)
+{
+    int file = -1;
+    for (int i = 0; i < 100 && file < 0; i++) {
+        if (snprintf(part, size, "%s.%ld-%d.part", target, (long)getpid(), i) >=
+            (int)size) {
+            errno = ENAMETOOLONG;
+            return -1;
+        }
+        file = open(part, O_CREAT | O_EXCL | O_WRONLY, 0666);
+        if (file < 0 && errno != EEXIST)
+            return -1;
+    }
+    return file;
+}
+
 /* Take the place before the work: an unwritable output is refused at once. */
-static gm_status reserve_place(const job *j, char *part, size_t size)
+static gm_status reserve_place(job *j, char *part, size_t size)
 {
     struct stat info;
     if (stat(j->target, &info) == 0 && !S_ISREG(info.st_mode))
         return gm_fail(j->error, GM_ERR_IO, "%s: is not a file that could be replaced",
                        j->target);
-    if (snprintf(part, size, "%s.XXXXXX", j->target) >= (int)size)
-        return gm_fail(j->error, GM_ERR_IO, "%s: the path is too long", j->target);
-    int file = mkstemp(part);
-    if (file < 0)
+    int file = create_part(j->target, part, size);
+    if (file < 0 || fstat(file, &info) != 0)
         return gm_fail(j->error, GM_ERR_IO, "%s: cannot be written: %s", j->target,
                        strerror(errno));
+    j->rights = info.st_mode & 0777;
     close(file);
     return GM_OK;
-}
-
-/* mkstemp makes private files; the result gets the rights of any new file. */
-static void usual_rights(const char *path)
-{
-    mode_t mask = umask(0);
-    (void)umask(mask);
-    (void)chmod(path, 0666 & ~mask);
 }
 
 static gm_status put_in_place(const job *j, const char *part)
@@ -274,8 +285,8 @@ static gm_status put_in_place(const job *j, const char *part)
     gm_status status = gm_package_write(&j->package, part, j->error);
     if (status != GM_OK)
         return status;
-    usual_rights(part);
-    if (rename(part, j->target) != 0)
+    /* the archive library replaces the file by one with rights of its own choice */
+    if (chmod(part, j->rights) != 0 || rename(part, j->target) != 0)
         return gm_fail(j->error, GM_ERR_IO, "%s: cannot be written: %s", j->target,
                        strerror(errno));
     return GM_OK;

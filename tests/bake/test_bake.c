@@ -7,6 +7,7 @@
 #include "base/alloc.h"
 #include "base/sha256.h"
 #include "example_map.h"
+#include "plant/gm_fmu.h"
 
 #include <dirent.h>
 #include <setjmp.h>
@@ -97,6 +98,9 @@ static void the_same_map_gives_the_same_bytes(void **state)
     assert_int_equal(stat(at->target, &info), 0);
     assert_int_equal(summary.file_size, info.st_size);
     assert_true(summary.file_size < 2 * 1024 * 1024);
+    mode_t mask = umask(022);
+    (void)umask(mask);
+    assert_int_equal(info.st_mode & 0777, 0666 & ~mask);
     assert_int_equal(gm_bake_fmu2(at->map, &usual, at->target, NULL, &error), GM_OK);
     assert_int_equal(gm_sha256_file(at->target, second, &error), GM_OK);
     assert_string_equal(first, second);
@@ -198,6 +202,10 @@ static void foreign_texts_cannot_break_the_description(void **state)
     memset(at->map->name, 'x', GM_MAP_TEXT - 1);
     memcpy(at->map->input_sha256, "*/ #error", 10);
     assert_int_equal(gm_bake_fmu2(at->map, &usual, at->target, NULL, &error), GM_OK);
+    gm_fmu *fmu = NULL; /* reads the XML and loads what was compiled */
+    if (gm_fmu_open(at->target, &fmu, &error) != GM_OK)
+        fail_msg("%s", error.message);
+    gm_fmu_close(fmu);
 }
 
 static gm_status bake_with_failure(const place *at, int k, const char *compiler)
