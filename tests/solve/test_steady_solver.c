@@ -241,6 +241,56 @@ static void strong_coupling_is_left_to_newton(void **state)
     gm_steady_solver_destroy(solver);
 }
 
+/* x_0 = 3 + 0.4 |x_1|, x_1 = 0.5 x_0 - 2: the passes contract; the Jacobian leads uphill, as
+ * that of the wrong side of a kink does. */
+static void kinked_residual(void *work, const double *x, double *f)
+{
+    (void)work;
+    f[0] = 3.0 + 0.4 * fabs(x[1]) - x[0];
+    f[1] = 0.5 * x[0] - 2.0 - x[1];
+}
+
+static double kinked_pass(void *work, double *x)
+{
+    double f[2];
+    kinked_residual(work, x, f);
+    x[0] += f[0];
+    x[1] += f[1];
+    return fmax(fabs(f[0]), fabs(f[1]));
+}
+
+static void misleading_jacobian(void *work, const double *x, double *value)
+{
+    (void)work, (void)x;
+    value[0] = 1.0;
+    value[1] = 0.0;
+    value[2] = 0.0;
+    value[3] = 1.0;
+}
+
+static void what_newton_cannot_solve_is_left_to_the_passes(void **state)
+{
+    (void)state;
+    const gm_plant_class kinked = {.work_create = strong_create,
+                                   .work_destroy = strong_destroy,
+                                   .set_point = strong_point,
+                                   .size = two,
+                                   .entries = four,
+                                   .pass = kinked_pass,
+                                   .residual = kinked_residual,
+                                   .pattern = strong_pattern,
+                                   .jacobian = misleading_jacobian,
+                                   .result = strong_result};
+    const gm_plant plant = {.is = &kinked, .info = {.name = "kinked", .n_paths = 1}};
+    gm_steady_solver *solver;
+    gm_steady_point point = {.gear = {1}};
+    gm_steady_result result;
+    assert_int_equal(gm_steady_solver_create(&plant, &solver, NULL), GM_OK);
+    assert_int_equal(gm_steady_solve(solver, &point, &result, NULL), GM_OK);
+    assert_true(fabs(result.torque[0] - 3.8 / 1.2) < 1e-10);
+    gm_steady_solver_destroy(solver);
+}
+
 static void no_residual(void *work, const double *x, double *f)
 {
     (void)work;
@@ -311,6 +361,7 @@ int main(void)
         cmocka_unit_test(free_input_turns_with_its_gear),
         cmocka_unit_test(free_input_is_held_at_rest),
         cmocka_unit_test(strong_coupling_is_left_to_newton),
+        cmocka_unit_test(what_newton_cannot_solve_is_left_to_the_passes),
         cmocka_unit_test(point_without_solution_is_named),
         cmocka_unit_test(failing_memory_leaves_nothing_behind),
     };
