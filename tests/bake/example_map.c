@@ -71,8 +71,11 @@ static void add_path(gm_map *map, int p)
             key.gear[p] = map->paths[p].gears[g].number;
             key.direction[0] = d;
             add(map, key, 2, n_load, load);
+            bool jumps = key.gear[p] > 1;
             key.symbol = GM_LINE_JUMP;
-            if (key.gear[p] > 1)
+            key.gear[p] = GM_MAP_ANY;
+            key.line = map->paths[p].gears[g].ratio;
+            if (jumps)
                 add(map, key, 1, &n_free[1], line);
         }
     for (int i = 0; i < 4; i++) {
