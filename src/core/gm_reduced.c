@@ -53,7 +53,7 @@ static int inputs_are_finite(const gm_reduced_map *map, const gm_reduced_inputs 
 
 static int motion_is_finite(const gm_reduced_map *map, const gm_motion *s)
 {
-    gm_real sum = (s->phi_o - s->phi_o) + (s->w_o - s->w_o) + (s->work - s->work) +
+    gm_real sum = (s->phi_o - s->phi_o) + (s->w_o - s->w_o) + (s->brake - s->brake) + (s->work - s->work) +
                   (s->loss_energy - s->loss_energy);
     for (int p = 0; p < map->n_paths; p++) {
         sum += (s->path[p].phi - s->path[p].phi) + (s->path[p].w - s->path[p].w);
@@ -66,6 +66,7 @@ static gm_motion load(const gm_reduced_state *state)
     gm_motion s;
     s.phi_o = state->phi_o;
     s.w_o = state->w_o;
+    s.brake = state->brake;
     s.path[0] = state->path[0];
     s.path[1] = state->path[1];
     s.work = state->work;
@@ -77,6 +78,7 @@ static void store(const gm_motion *s, gm_reduced_state *state)
 {
     state->phi_o = s->phi_o;
     state->w_o = s->w_o;
+    state->brake = s->brake;
     state->path[0] = s->path[0];
     state->path[1] = s->path[1];
     state->work = s->work;
@@ -120,7 +122,7 @@ int gm_reduced_start(const gm_reduced_map *map, const gm_reduced_inputs *inputs,
                      gm_real w_o, const gm_real *w, gm_reduced_state *state)
 {
     static const gm_reduced_state zero = {0};
-    gm_motion s = {0, 0, {{0, 0, 0, -1}, {0, 0, 0, -1}}, 0, 0};
+    gm_motion s = {0, 0, 0, {{0, 0, 0, -1}, {0, 0, 0, -1}}, 0, 0};
     int flags = 0;
     s.w_o = w_o;
     for (int p = 0; p < map->n_paths; p++) {

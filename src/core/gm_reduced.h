@@ -152,13 +152,15 @@ typedef struct gm_reduced_cache {
     gm_cell1 coupling, parasitic[2], line[GM_MAX_PATHS][2][GM_CACHED_LINES];
     gm_cell2 load_loss[GM_MAX_PATHS][2];
     gm_cell2 drag[GM_MAX_PATHS][2][2], reaction[GM_MAX_PATHS][2][2];
-    gm_drag_patch patch[GM_MAX_PATHS];
+    gm_drag_patch patch[GM_MAX_PATHS][2]; /* by direction of w_n */
     gm_cell3 both_loaded[2];
 } gm_reduced_cache;
 
 /** Speed of every independent shaft and the accounts; plain data without pointers. */
 typedef struct gm_reduced_state {
     gm_real phi_o, w_o;
+    gm_real brake; /* what losses took from the output's torque in the last step [N.m]:
+                      where the next one begins to look, so part of the state */
     gm_path_state path[GM_MAX_PATHS];
     gm_real work; /* done by the flanges on the gearset since the start [J] */
     gm_real

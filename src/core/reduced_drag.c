@@ -269,8 +269,8 @@ static void add_all(const gm_drive *d, int p, const place *q, gm_real sign_n,
 void gm_drag_terms(const gm_drive *d, int p, gm_real sign_n, gm_real sign_o,
                    const gm_point *at, gm_terms *t)
 {
-    gm_drag_patch *patch = &d->cache->patch[p];
     const place q = place_of(p, sign_n, sign_o, at);
+    gm_drag_patch *patch = &d->cache->patch[p][q.i];
     gm_path_terms *terms = &t->path[p];
     terms->patched = in_patch(patch, &q) || fill_patch(d, p, &q, patch);
     if (terms->patched) {
@@ -322,7 +322,7 @@ int gm_drag_holds(const gm_drive *d, const gm_solution *s, int p, const gm_point
     const place q = place_of(p, s->sign[p], s->sign[GM_OUT], from);
     const place to = place_of(p, s->sign[p], s->sign[GM_OUT], next);
     if (t->patched) {
-        return patch_holds(&d->cache->patch[p], &q, &to, t);
+        return patch_holds(&d->cache->patch[p][q.i], &q, &to, t);
     }
     return gm_cell2_holds(&d->cache->drag[p][q.i][q.j], q.x, q.y, to.x, to.y, t->drag) &&
            gm_cell2_holds(&d->cache->reaction[p][q.i][q.j], q.x, q.y, to.x, to.y,

@@ -77,6 +77,7 @@ void gm_make_drive(const gm_reduced_map *map, const gm_reduced_params *params,
     d->cache = cache;
     d->n_paths = map->n_paths;
     d->scale = params->loss_scale;
+    d->brake = s->brake;
     d->index = 0;
     d->inertia[GM_OUT] = map->inertia_output;
     drive_path(map, params, s, 0, d);

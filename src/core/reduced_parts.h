@@ -18,7 +18,7 @@ enum { GM_OUT = GM_MAX_PATHS, GM_SHAFTS = GM_MAX_PATHS + 1 };
 
 /* The state without its caches: what a step computes and then commits or drops. */
 typedef struct gm_motion {
-    gm_real phi_o, w_o;
+    gm_real phi_o, w_o, brake;
     gm_path_state path[GM_MAX_PATHS];
     gm_real work, loss_energy;
 } gm_motion;
@@ -38,6 +38,7 @@ typedef struct gm_drive {
     gm_real inertia[GM_SHAFTS];        /* J_p; J_s of the configuration at the output */
     gm_real w[GM_SHAFTS];              /* at the start of the sub-step */
     gm_real tau[GM_SHAFTS];            /* flange torques, mean of the sub-step */
+    gm_real brake;                     /* the last step's, a first guess [N.m] */
     gm_real scale;                     /* loss_scale */
     gm_real h;                         /* s; 0: at this instant */
 } gm_drive;
@@ -195,5 +196,8 @@ void gm_solve(const gm_drive *d, gm_solution *s);
  *  loss torques at that break-away. */
 gm_real gm_excess(const gm_drive *d, const gm_solution *s, int k, gm_real sign,
                   gm_terms *terms);
+
+/** What the losses of the solution take from the torque on the output [N.m]. */
+gm_real gm_brake(const gm_drive *d, const gm_solution *s);
 
 #endif

@@ -211,17 +211,28 @@ static void next_place(int pass, const gm_point *at, gm_point *to, gm_real low[G
     }
 }
 
-/* First place: the output under its flange torques without losses, which are a few per
- * cent; free paths at their present speed. */
-static void first_place(const gm_drive *d, const gm_solution *s, gm_point *at)
+/* Torque on the output before losses. */
+static gm_real driving_torque(const gm_drive *d)
 {
     gm_real sum = d->tau[GM_OUT];
     for (int p = 0; p < d->n_paths; p++) {
         sum += d->ratio[p] * (d->engaged[p] ? d->tau[p] : d->cone[p]);
-        at->a[p] = 0;
     }
-    at->a[1] = 0;
-    at->a[GM_OUT] = s->held[GM_OUT] ? 0 : sum / d->inertia[GM_OUT];
+    return sum;
+}
+
+gm_real gm_brake(const gm_drive *d, const gm_solution *s)
+{
+    return driving_torque(d) - d->inertia[GM_OUT] * s->point.a[GM_OUT];
+}
+
+/* First place: the output under its flange torques with the losses of the last step, free
+ * paths at their present speed. */
+static void first_place(const gm_drive *d, const gm_solution *s, gm_point *at)
+{
+    at->a[0] = at->a[1] = 0;
+    at->a[GM_OUT] =
+        s->held[GM_OUT] ? 0 : (driving_torque(d) - d->brake) / d->inertia[GM_OUT];
     set_speeds(d, at);
 }
 

@@ -32,6 +32,7 @@ static void advance(const gm_drive *d, const gm_solution *solution, gm_motion *s
     const gm_point *at = &solution->point;
     gm_real power = d->tau[GM_OUT] * at->m[GM_OUT];
     s->w_o = d->w[GM_OUT] + h * at->a[GM_OUT];
+    s->brake = gm_brake(d, solution);
     s->phi_o += h * at->m[GM_OUT];
     for (int p = 0; p < d->n_paths; p++) {
         power += d->tau[p] * at->m[p];
