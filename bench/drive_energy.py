@@ -3,12 +3,12 @@
 
     python bench/drive_energy.py build/dct7.fmu build/dct7.map
 
-Drives away through four gears, stops, is held on a hill and drives away again, 60 s, at
+Drives away through four gears, stops, is held on a hill and drives away again: 60 s at
 several communication steps. The work of the flanges is summed as torque times angle; the
-losses are read from the map's file with a separate interpolation at the recorded speeds and
-torques; kinetic energy follows from the map's inertias. None of these comes from the
-component. Their difference shows the error of the component's time stepping: it must fall
-with the step. The component's own account must close to rounding at any step.
+losses are read from the map's file with a separate interpolation at the recorded speeds
+and torques; kinetic energy follows from the map's inertias. None of these comes from the
+component. Their difference shows the error of the component's time stepping: it must
+fall with the step. The component's own account must close to rounding at any step.
 """
 
 import argparse

@@ -31,7 +31,8 @@ typedef enum gm_status {
 
 #if defined(__GNUC__)
 #define GM_NODISCARD __attribute__((warn_unused_result))
-#define GM_PRINTF(format_index, first) __attribute__((format(printf, format_index, first)))
+#define GM_PRINTF(format_index, first)                                                   \
+    __attribute__((format(printf, format_index, first)))
 #else
 #define GM_NODISCARD
 #define GM_PRINTF(format_index, first)

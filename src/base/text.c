@@ -105,7 +105,8 @@ static int edit_distance(const char *a, const char *b)
         int diagonal = row[0];
         row[0] = (int)i;
         for (size_t j = 1; j <= n_b; j++) {
-            int same = tolower((unsigned char)a[i - 1]) == tolower((unsigned char)b[j - 1]);
+            int same =
+                tolower((unsigned char)a[i - 1]) == tolower((unsigned char)b[j - 1]);
             int next = min3(row[j] + 1, row[j - 1] + 1, diagonal + !same);
             diagonal = row[j];
             row[j] = next;

@@ -53,8 +53,8 @@ static int inputs_are_finite(const gm_reduced_map *map, const gm_reduced_inputs 
 
 static int motion_is_finite(const gm_reduced_map *map, const gm_motion *s)
 {
-    gm_real sum = (s->phi_o - s->phi_o) + (s->w_o - s->w_o) + (s->brake - s->brake) + (s->work - s->work) +
-                  (s->loss_energy - s->loss_energy);
+    gm_real sum = (s->phi_o - s->phi_o) + (s->w_o - s->w_o) + (s->brake - s->brake) +
+                  (s->work - s->work) + (s->loss_energy - s->loss_energy);
     for (int p = 0; p < map->n_paths; p++) {
         sum += (s->path[p].phi - s->path[p].phi) + (s->path[p].w - s->path[p].w);
     }

@@ -206,7 +206,8 @@ static bool column_key(sqlite3_stmt *rows, gm_table_key *key)
            column_or_any(rows, 3, -1, &key->gear[0]) &&
            column_or_any(rows, 4, -1, &key->gear[1]) &&
            column_direction(rows, 5, &key->direction[0]) &&
-           column_direction(rows, 6, &key->direction[1]) && column_line(rows, 7, &key->line);
+           column_direction(rows, 6, &key->direction[1]) &&
+           column_line(rows, 7, &key->line);
 }
 
 /* The axes a row of map_table names: number, nodes and whether they may be. */

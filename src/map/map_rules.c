@@ -23,7 +23,8 @@ static const gm_symbol_rule rules[GM_SYMBOLS] = {
     [GM_DRAG] = {"drag", "drag", true, GM_GEARS_NONE, 2, 2, {PATH_SPEED, OUTPUT_SPEED}},
     [GM_REACTION] = {"reaction", "reaction of the drag", true, GM_GEARS_NONE, 2,
                      2, {PATH_SPEED, OUTPUT_SPEED}},
-    [GM_LINE_JUMP] = {"line_jump", "drag jump", true, GM_GEARS_NONE, 1, 1, {OUTPUT_SPEED}},
+    [GM_LINE_JUMP] = {"line_jump", "drag jump", true, GM_GEARS_NONE, 1,
+                      1, {OUTPUT_SPEED}},
     [GM_COUPLING] = {"coupling", "coupling of the input shafts", false, GM_GEARS_NONE, 0,
                      1, {{"relative_speed", "rad/s", true}}},
 };

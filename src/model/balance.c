@@ -5,10 +5,11 @@
  *   r(x) = A x + t_friction(x) + t_drag + t_given = 0
  *
  * x holds the row forces (meshes, then locks) and the unknown flange torques, A the rows
- * (configuration.c). Speeds are known, so drags that depend on speed alone are constant and
- * bearing laws are prepared once per speed. Friction acts against the relative speed; where
- * that is zero, against the speed that the point's direction would give: the one-sided
- * limit, exact at standstill. Where that is zero too (a locked gear), there is no friction.
+ * (configuration.c). Speeds are known, so drags that depend on speed alone are constant
+ * and bearing laws are prepared once per speed. Friction acts against the relative speed;
+ * where that is zero, against the speed that the point's direction would give: the
+ * one-sided limit, exact at standstill. Where that is zero too (a locked gear), there is
+ * no friction.
  */
 #include "model/gearset.h"
 
@@ -37,11 +38,11 @@ struct gm_balance {
     contact_state *mesh;    /* [n_meshes] */
     contact_state *bearing; /* [n_bearings] */
     gm_bearing_speed *bearing_speed;
-    contact_state *drag;  /* [n_drags] */
-    double *drag_torque;  /* [n_drags] magnitudes */
-    double *constant;     /* [n] drags and given flange torques on the bodies */
-    double *torque;       /* [n] scratch */
-    double *jacobian;     /* [n][n] scratch */
+    contact_state *drag;        /* [n_drags] */
+    double *drag_torque;        /* [n_drags] magnitudes */
+    double *constant;           /* [n] drags and given flange torques on the bodies */
+    double *torque;             /* [n] scratch */
+    double *jacobian;           /* [n][n] scratch */
     double *d_radial, *d_axial; /* [n_meshes] scratch */
 };
 
@@ -71,7 +72,8 @@ void gm_balance_destroy(gm_balance *balance)
 static int allocate(gm_balance *b, const gm_gearset *g)
 {
     size_t n = (size_t)g->n_bodies;
-    size_t n_m = (size_t)g->n_meshes, n_b = (size_t)g->n_bearings, n_d = (size_t)g->n_drags;
+    size_t n_m = (size_t)g->n_meshes, n_b = (size_t)g->n_bearings,
+           n_d = (size_t)g->n_drags;
     b->pattern = gm_calloc(n * n, 1);
     b->speed = gm_calloc(n, sizeof *b->speed);
     b->limit = gm_calloc(n, sizeof *b->limit);
@@ -90,7 +92,8 @@ static int allocate(gm_balance *b, const gm_gearset *g)
            b->jacobian && b->d_radial && b->d_axial;
 }
 
-gm_status gm_balance_create(const gm_gearset *gearset, gm_balance **balance, gm_error *error)
+gm_status gm_balance_create(const gm_gearset *gearset, gm_balance **balance,
+                            gm_error *error)
 {
     gm_balance *b = gm_calloc(1, sizeof *b);
     if (!b || !allocate(b, gearset)) {
@@ -401,7 +404,8 @@ void gm_balance_jacobian(gm_balance *balance, const double *x, double *value)
 
 /* ---- results ---- */
 
-void gm_balance_result(const gm_balance *balance, const double *x, gm_steady_result *result)
+void gm_balance_result(const gm_balance *balance, const double *x,
+                       gm_steady_result *result)
 {
     const gm_gearset *g = balance->gearset;
     const gm_configuration_rows *rows = &balance->rows;
@@ -441,9 +445,9 @@ void gm_balance_losses(gm_balance *balance, const double *x, gm_element_loss *lo
     }
     losses += g->n_bearings;
     for (int i = 0; i < g->n_drags; i++)
-        losses[i] = (gm_element_loss){.kind = g->drags[i].kind,
-                                      .name = g->drags[i].name,
-                                      .power = balance->drag[i].speed *
-                                               balance->drag_torque[i],
-                                      .speed = balance->drag[i].speed};
+        losses[i] =
+            (gm_element_loss){.kind = g->drags[i].kind,
+                              .name = g->drags[i].name,
+                              .power = balance->drag[i].speed * balance->drag_torque[i],
+                              .speed = balance->drag[i].speed};
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * Masses and moments of inertia of the rotating bodies: every shaft with the gears that are
- * fixed on it, then every idling gear as a body of its own. From geometry (steel, solid of
- * revolution up to the pitch circle) unless given.
+ * Masses and moments of inertia of the rotating bodies: every shaft with the gears that
+ * are fixed on it, then every idling gear as a body of its own. From geometry (steel,
+ * solid of revolution up to the pitch circle) unless given.
  */
 #include "model/gearset.h"
 
@@ -16,7 +16,8 @@ double gm_shaft_mass(const gm_shaft *shaft, double *centre)
     double mass = 0.0, moment = 0.0, middle = 0.0;
     for (int i = 0; i < shaft->n_segments; i++) {
         const gm_segment *s = &shaft->segments[i];
-        double m = gm_cylinder_mass(GM_STEEL_DENSITY, s->to - s->from, s->diameter, s->bore);
+        double m =
+            gm_cylinder_mass(GM_STEEL_DENSITY, s->to - s->from, s->diameter, s->bore);
         mass += m;
         moment += m * 0.5 * (s->from + s->to);
         middle += 0.5 * (s->from + s->to) / shaft->n_segments;
@@ -62,8 +63,9 @@ double gm_wheel_mass(const gm_description *description, const gm_wheel *wheel)
 {
     if (!isnan(wheel->mass))
         return wheel->mass;
-    return fmax(0.0, gm_cylinder_mass(GM_STEEL_DENSITY, wheel->width, pitch_diameter(wheel),
-                                      wheel_bore(description, wheel)));
+    return fmax(0.0,
+                gm_cylinder_mass(GM_STEEL_DENSITY, wheel->width, pitch_diameter(wheel),
+                                 wheel_bore(description, wheel)));
 }
 
 static double wheel_inertia(const gm_description *d, const gm_wheel *wheel)

@@ -41,8 +41,8 @@ static gm_status collect(const gm_gearset *gearset, const int *gear,
         }
         const gm_path_gear *g = find_gear(&d->paths[p], gear[p]);
         if (!g)
-            return gm_fail(error, GM_ERR_ARGUMENT, "%s: path '%s' has no gear %d", d->file,
-                           d->paths[p].id.name, gear[p]);
+            return gm_fail(error, GM_ERR_ARGUMENT, "%s: path '%s' has no gear %d",
+                           d->file, d->paths[p].id.name, gear[p]);
         rows->lock[rows->n_locks++] =
             (gm_row){.body = {gearset->wheel_body[g->wheel], d->wheels[g->wheel].shaft},
                      .g = {1.0, -1.0}};
@@ -68,7 +68,8 @@ static void fill_balance(const gm_gearset *gearset, gm_configuration_rows *rows)
             rows->balance[row->body[side] * n + e] -= row->g[side];
     }
     for (int i = 0; i < rows->n_independent; i++)
-        rows->balance[gm_flange_body(gearset, rows->flange[i]) * n + rows->n_rows + i] = 1.0;
+        rows->balance[gm_flange_body(gearset, rows->flange[i]) * n + rows->n_rows + i] =
+            1.0;
 }
 
 static gm_status invert(const gm_gearset *gearset, gm_configuration_rows *rows,
@@ -161,8 +162,8 @@ static int column_of(const gm_configuration_rows *rows, int flange)
 }
 
 /* Inertia that turns with one independent speed: sum of J (dw/du)^2. */
-static double carried_inertia(const gm_gearset *gearset, const gm_configuration_rows *rows,
-                              int column)
+static double carried_inertia(const gm_gearset *gearset,
+                              const gm_configuration_rows *rows, int column)
 {
     double J = 0.0;
     for (int b = 0; b < rows->n_bodies; b++) {
@@ -238,8 +239,8 @@ double gm_gearset_sync_torque(const gm_gearset *gearset, int p)
         int w = d->paths[p].gears[i].wheel;
         const double *wheel = rows.speed_of + gearset->wheel_body[w] * rows.n_independent;
         const double *shaft = rows.speed_of + d->wheels[w].shaft * rows.n_independent;
-        smallest = fmin(smallest,
-                        cone_torque_of(d, w) * fabs(wheel[column] - shaft[column]));
+        smallest =
+            fmin(smallest, cone_torque_of(d, w) * fabs(wheel[column] - shaft[column]));
     }
     gm_configuration_rows_clear(&rows);
     return smallest;
@@ -289,7 +290,8 @@ static double line_of_bearing(const gm_configuration_rows *rows,
 {
     double s[GM_MAX_FLANGES] = {0.0};
     for (int i = 0; i < rows->n_independent; i++) {
-        double on = b->on == GM_HOUSING ? 0.0 : rows->speed_of[b->on * rows->n_independent + i];
+        double on =
+            b->on == GM_HOUSING ? 0.0 : rows->speed_of[b->on * rows->n_independent + i];
         s[i] = rows->speed_of[b->body * rows->n_independent + i] - on;
         if (i != 0 && i != column && s[i] != 0.0)
             return 0.0;

@@ -35,10 +35,11 @@ static gm_pair make_pair(const gm_description *d, const gm_mesh *mesh)
                         fmin(w0->width, w1->width), centre_distance(d, mesh));
 }
 
-/* Normal force of a mesh on one wheel. With e from the wheel's centre to the pitch point's
- * side and t = x cross e, the base-tangent force F gives the torque -r_b F about +x:
- * F_t = -F cos(alpha_wt) along t, |F| sin(alpha_wt) away from the mate, and the axial
- * force -h F_t tan(beta_w), h = +1 for right-hand teeth (derived from the tooth trace). */
+/* Normal force of a mesh on one wheel. With e from the wheel's centre to the pitch
+ * point's side and t = x cross e, the base-tangent force F gives the torque -r_b F about
+ * +x: F_t = -F cos(alpha_wt) along t, |F| sin(alpha_wt) away from the mate, and the axial
+ * force -h F_t tan(beta_w), h = +1 for right-hand teeth (derived from the tooth trace).
+ */
 static gm_contact make_contact(const gm_description *d, const gm_mesh *mesh,
                                const gm_pair *pair, int side)
 {
@@ -100,8 +101,8 @@ static gm_status make_law(const gm_gearset *gearset, const gm_bearing_data *data
     gm_error detail = {GM_OK, ""};
     gm_status status = gm_bearing_law_make(data, &gearset->oil, law, &detail);
     if (status != GM_OK)
-        return gm_fail(error, status, "%s:%d: %s: %s", gearset->description->file, id->line,
-                       id->name, detail.message);
+        return gm_fail(error, status, "%s:%d: %s: %s", gearset->description->file,
+                       id->line, id->name, detail.message);
     return GM_OK;
 }
 
@@ -261,7 +262,8 @@ static void add_cones(gm_gearset *gearset)
     const gm_description *d = gearset->description;
     for (int i = 0; i < d->n_synchronisers; i++) {
         const gm_synchroniser *sync = &d->synchronisers[i];
-        for (int k = 0; k < sync->n_wheels && sync->cone_clearance > INFINITE_CLEARANCE; k++)
+        for (int k = 0; k < sync->n_wheels && sync->cone_clearance > INFINITE_CLEARANCE;
+             k++)
             gearset->drags[gearset->n_drags++] =
                 (gm_drag_element){.kind = GM_LOSS_SYNCHRONISER,
                                   .name = d->wheels[sync->wheels[k]].id.name,
@@ -279,8 +281,8 @@ static void add_churning(gm_gearset *gearset)
     const gm_description *d = gearset->description;
     for (int w = 0; w < d->n_wheels; w++) {
         const gm_wheel *wheel = &d->wheels[w];
-        double tip = wheel->normal_module * (0.5 * wheel->teeth / cos(wheel->helix) + 1.0 +
-                                             wheel->profile_shift);
+        double tip = wheel->normal_module * (0.5 * wheel->teeth / cos(wheel->helix) +
+                                             1.0 + wheel->profile_shift);
         double depth = d->oil.level - (d->shafts[wheel->shaft].z - tip);
         if (!wheel->churning || isnan(d->oil.level) || depth <= 0.0)
             continue;

@@ -85,15 +85,15 @@ double gm_shaft_mass(const gm_shaft *shaft, double *centre);
 /** Speeds of all bodies over the independent speeds of a configuration. */
 typedef struct gm_configuration_rows {
     int n_bodies;
-    int n_rows;        /* meshes, then one lock per engaged path */
-    int n_independent; /* output, then the paths in neutral */
-    int flange[GM_MAX_FLANGES];         /* flange of each independent speed */
+    int n_rows;                 /* meshes, then one lock per engaged path */
+    int n_independent;          /* output, then the paths in neutral */
+    int flange[GM_MAX_FLANGES]; /* flange of each independent speed */
     gm_row lock[GM_MAX_INPUT_PATHS];
     int n_locks;
-    double *speed_of;  /* [n_bodies][n_independent] */
-    double *balance;   /* A [n_bodies][n_bodies]: row forces and flange torques -> torques
-                          on the bodies */
-    double *inverse;   /* of A */
+    double *speed_of; /* [n_bodies][n_independent] */
+    double *balance;  /* A [n_bodies][n_bodies]: row forces and flange torques -> torques
+                         on the bodies */
+    double *inverse;  /* of A */
 } gm_configuration_rows;
 
 GM_NODISCARD gm_status gm_configuration_rows_make(const gm_gearset *gearset,

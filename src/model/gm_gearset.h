@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
  * The detailed gearset, assembled: bodies that rotate, rows that couple them (meshes,
- * locked synchronisers), friction elements between them, and the steady balance of torques.
+ * locked synchronisers), friction elements between them, and the steady balance of
+ * torques.
  *
  *   for every body b:   - sum_e g_e,b F_e + tau_friction,b + tau_flange,b = 0
  *   for every row e:      g_e . w = 0   (meshes are rigid in steady motion)
@@ -45,14 +46,15 @@ GM_NODISCARD gm_status gm_gearset_kinematics(const gm_gearset *gearset, const in
  *  times wheel speed over input speed, the smallest of its gears. NAN without memory. */
 double gm_gearset_sync_torque(const gm_gearset *gearset, int p);
 
-/** Speeds of path p in gear `number` [rad/s, ascending, at most n_max] at which the sliding
- *  speed of a loaded mesh leaves boundary friction: kinks of the loss. Returns their number. */
+/** Speeds of path p in gear `number` [rad/s, ascending, at most n_max] at which the
+ * sliding speed of a loaded mesh leaves boundary friction: kinks of the loss. Returns
+ * their number. */
 int gm_gearset_kink_speeds(const gm_gearset *gearset, int p, int number, int n_max,
                            double *speed);
 
 /** Ratios w_path / w_output of path p in neutral at which a bearing between a part that
- *  turns with the path and one that turns with the output does not turn: where the drag on
- *  the path jumps. Ascending, each once, at most n_max. Returns their number. */
+ *  turns with the path and one that turns with the output does not turn: where the drag
+ * on the path jumps. Ascending, each once, at most n_max. Returns their number. */
 int gm_gearset_drag_lines(const gm_gearset *gearset, int p, int n_max, double *ratio);
 
 /** Workspace of the steady balance for one thread; keeps what does not change while the
@@ -64,7 +66,8 @@ void gm_balance_destroy(gm_balance *balance);
 
 /** Choose the point. Unknowns x: row forces, then unknown flange torques (N, N.m). */
 GM_NODISCARD gm_status gm_balance_set_point(gm_balance *balance,
-                                            const gm_steady_point *point, gm_error *error);
+                                            const gm_steady_point *point,
+                                            gm_error *error);
 
 /** Number of unknowns and of Jacobian entries at the present configuration. */
 int gm_balance_size(const gm_balance *balance);
@@ -84,7 +87,8 @@ void gm_balance_pattern(const gm_balance *balance, int *column_start, int *row);
 void gm_balance_jacobian(gm_balance *balance, const double *x, double *value);
 
 /** Flange torques and speeds at the solution x. */
-void gm_balance_result(const gm_balance *balance, const double *x, gm_steady_result *result);
+void gm_balance_result(const gm_balance *balance, const double *x,
+                       gm_steady_result *result);
 
 /** Loss power of every friction element at the solution. */
 typedef enum gm_loss_kind {
@@ -100,9 +104,9 @@ typedef enum gm_loss_kind {
 
 typedef struct gm_element_loss {
     gm_loss_kind kind;
-    const char *name; /* the part's, owned by the description */
-    double power;     /* W, >= 0 */
-    double speed;     /* relative, rad/s or m/s (meshes) */
+    const char *name;     /* the part's, owned by the description */
+    double power;         /* W, >= 0 */
+    double speed;         /* relative, rad/s or m/s (meshes) */
     double radial, axial; /* loads of bearings, tangential force F_bt of meshes [N] */
 } gm_element_loss;
 

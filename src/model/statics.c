@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * Coordinates of shaft s, about its origin x = 0: u_x, u_y, u_z, theta_y, theta_z. A point
- * at x moves by u_y + theta_z x in y and by u_z - theta_y x in z (small rotations).
+ * Coordinates of shaft s, about its origin x = 0: u_x, u_y, u_z, theta_y, theta_z. A
+ * point at x moves by u_y + theta_z x in y and by u_z - theta_y x in z (small rotations).
  */
 #include "model/statics.h"
 
@@ -138,7 +138,8 @@ void gm_load_row_clear(gm_load_row *row)
 /* Keep the pair of parts of one mesh if it loads this bearing beyond rounding. */
 static void load_row_add(gm_load_row *row, int mesh, const double a[3], const double b[3])
 {
-    const double rounding = 1e-9; /* forces are per newton, the solution is good to 1e-12 */
+    const double rounding =
+        1e-9; /* forces are per newton, the solution is good to 1e-12 */
     if (largest(a) < rounding && largest(b) < rounding)
         return;
     row->mesh[row->n] = mesh;
@@ -175,14 +176,16 @@ static gm_status statics_make(statics *s, const gm_description *d, gm_error *err
     for (int i = 0; i < d->n_bearings; i++)
         add_bearing(n, s->K, &d->bearings[i]);
     if (!gm_lu_factor(n, s->K, s->pivot))
-        return gm_fail(error, GM_ERR_MODEL,
-                       "%s: the bearings do not hold every shaft: each needs two bearings "
-                       "at different positions and one of them locating",
-                       d->file);
+        return gm_fail(
+            error, GM_ERR_MODEL,
+            "%s: the bearings do not hold every shaft: each needs two bearings "
+            "at different positions and one of them locating",
+            d->file);
     return GM_OK;
 }
 
-static void solve_mesh(statics *s, const gm_static_mesh *mesh, int index, gm_load_row *rows)
+static void solve_mesh(statics *s, const gm_static_mesh *mesh, int index,
+                       gm_load_row *rows)
 {
     memset(s->load, 0, (size_t)s->n * sizeof *s->load);
     memset(s->load_b, 0, (size_t)s->n * sizeof *s->load_b);
@@ -209,7 +212,8 @@ static gm_status reserve_rows(int n_bearings, int n_meshes, gm_load_row *rows,
 
 gm_status gm_statics_solve(const gm_description *description, int n_meshes,
                            const gm_static_mesh *meshes, int n_masses,
-                           const gm_static_mass *masses, gm_load_row *rows, gm_error *error)
+                           const gm_static_mass *masses, gm_load_row *rows,
+                           gm_error *error)
 {
     statics s;
     int n_bearings = description->n_bearings;
@@ -249,8 +253,8 @@ static double sign_of(double v)
     return v < 0.0 ? -1.0 : 1.0;
 }
 
-void gm_load_row_at(const gm_load_row *row, const double *F, double *radial, double *axial,
-                    double *d_radial, double *d_axial)
+void gm_load_row_at(const gm_load_row *row, const double *F, double *radial,
+                    double *axial, double *d_radial, double *d_axial)
 {
     double v[3] = {row->weight[0], row->weight[1], row->weight[2]};
     for (int k = 0; k < row->n; k++) {

@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * Bearing loads from mesh forces. Every shaft is a rigid beam on its bearings (two lateral,
- * one axial, two tilting motions); the bearings are linear springs. These coordinates are
- * condensed once: each bearing's load becomes a linear function of the normal forces F of
- * the meshes, of their magnitudes |F| (the separating component does not change sign with
- * the flank), and of the weight. Where two bearings carry a shaft the result does not
- * depend on stiffness: it is plain statics.
+ * Bearing loads from mesh forces. Every shaft is a rigid beam on its bearings (two
+ * lateral, one axial, two tilting motions); the bearings are linear springs. These
+ * coordinates are condensed once: each bearing's load becomes a linear function of the
+ * normal forces F of the meshes, of their magnitudes |F| (the separating component does
+ * not change sign with the flank), and of the weight. Where two bearings carry a shaft
+ * the result does not depend on stiffness: it is plain statics.
  */
 #ifndef STATICS_H
 #define STATICS_H
 
 #include "model/gm_description.h"
 
-/** Force of a mesh on one of its wheels per newton of base-tangent force F (signed) and of
- *  |F|; components x, y, z; acting at `point` (absolute). */
+/** Force of a mesh on one of its wheels per newton of base-tangent force F (signed) and
+ * of |F|; components x, y, z; acting at `point` (absolute). */
 typedef struct gm_contact {
     double signed_part[3];
     double magnitude_part[3];
@@ -23,18 +23,18 @@ typedef struct gm_contact {
 /** Load of one bearing: vector = weight + sum_k (a_k F_k + b_k |F_k|), k over meshes. */
 typedef struct gm_load_row {
     int n;
-    int *mesh;           /* [n] */
-    double (*a)[3];      /* [n], x y z */
-    double (*b)[3];      /* [n] */
-    double weight[3];    /* N */
+    int *mesh;        /* [n] */
+    double (*a)[3];   /* [n], x y z */
+    double (*b)[3];   /* [n] */
+    double weight[3]; /* N */
 } gm_load_row;
 
 void gm_load_row_clear(gm_load_row *row);
 
-/** Radial and axial magnitude under mesh forces F, and their derivatives by the n forces of
- *  the row. d_radial and d_axial may be NULL. */
-void gm_load_row_at(const gm_load_row *row, const double *F, double *radial, double *axial,
-                    double *d_radial, double *d_axial);
+/** Radial and axial magnitude under mesh forces F, and their derivatives by the n forces
+ * of the row. d_radial and d_axial may be NULL. */
+void gm_load_row_at(const gm_load_row *row, const double *F, double *radial,
+                    double *axial, double *d_radial, double *d_axial);
 
 /** A mesh as statics sees it: which shaft carries each of its wheels. */
 typedef struct gm_static_mesh {

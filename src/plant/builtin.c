@@ -108,7 +108,8 @@ static gm_status fill_path(const gm_gearset *gearset, int p, gm_plant_path *path
                             .n_gears = part->n_gears,
                             .gears = gears,
                             .sync_torque = gm_gearset_sync_torque(gearset, p)};
-    return isnan(path->sync_torque) ? gm_fail(error, GM_ERR_MEMORY, "out of memory") : GM_OK;
+    return isnan(path->sync_torque) ? gm_fail(error, GM_ERR_MEMORY, "out of memory")
+                                    : GM_OK;
 }
 
 static int joins_inputs(const gm_description *d, int a, int b)

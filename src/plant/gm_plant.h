@@ -26,7 +26,8 @@ typedef struct gm_plant_path {
     const char *name; /* "odd", "even" or "input" */
     int n_gears;
     const gm_plant_gear *gears; /* ascending by number */
-    double sync_torque; /* cone capacity at the input flange, N.m (smallest of its gears) */
+    double
+        sync_torque; /* cone capacity at the input flange, N.m (smallest of its gears) */
 } gm_plant_path;
 
 typedef struct gm_plant_info {
@@ -45,8 +46,8 @@ typedef struct gm_plant_info {
 typedef struct gm_plant_class {
     gm_status (*kinematics)(const void *self, const int *gear, gm_kinematics *kinematics,
                             gm_error *error);
-    /* Speeds at path p (rad/s, > 0) in gear `number` where the loss has a kink; returns how
-       many of at most n_max were written, ascending. */
+    /* Speeds at path p (rad/s, > 0) in gear `number` where the loss has a kink; returns
+       how many of at most n_max were written, ascending. */
     int (*kink_speeds)(const void *self, int p, int number, int n_max, double *speed);
     /* Ratios w_path / w_output of path p in neutral at which its drag jumps: parts of the
        path turn in step with parts of the output. At most n_max, ascending. */

@@ -2,8 +2,8 @@
  *
  * A path in neutral that nothing drives: the speed at which the drags on it cancel. Drag
  * jumps where the shaft is at rest and where it turns with one of its gears, so the root
- * may be such a point, at which friction holds the shaft: the torque is negative just below
- * and positive just above. Otherwise it lies between two of them and is bracketed.
+ * may be such a point, at which friction holds the shaft: the torque is negative just
+ * below and positive just above. Otherwise it lies between two of them and is bracketed.
  */
 #include "solve/gm_steady_solver.h"
 
@@ -114,8 +114,8 @@ static gm_status locate(search *s, int n, const double *breaks, gm_free_path *fo
     return beyond(s, lower_edge, 1.0, &found->speed);
 }
 
-/* The state in which friction holds: between the two one-sided limits, where the torque at
- * the free flange is zero. */
+/* The state in which friction holds: between the two one-sided limits, where the torque
+ * at the free flange is zero. */
 static gm_status held_between(search *s, double w)
 {
     double below, above;
@@ -127,7 +127,8 @@ static gm_status held_between(search *s, double w)
         return status;
     double share = above > below ? -below / (above - below) : 0.0;
     for (int i = 0; i < GM_MAX_FLANGES; i++)
-        s->result->torque[i] = low.torque[i] + share * (s->result->torque[i] - low.torque[i]);
+        s->result->torque[i] =
+            low.torque[i] + share * (s->result->torque[i] - low.torque[i]);
     return GM_OK;
 }
 
@@ -141,7 +142,8 @@ gm_status gm_steady_solve_free(gm_steady_solver *solver, int p, gm_steady_point 
     const gm_plant *plant = gm_steady_solver_plant(solver);
     gm_status status = torque_at(&s, 0.0, 1.0, &torque);
     if (status == GM_OK)
-        status = locate(&s, find_breaks(plant, p, result->speed[0], breaks), breaks, &found);
+        status =
+            locate(&s, find_breaks(plant, p, result->speed[0], breaks), breaks, &found);
     if (status == GM_OK)
         status = found.sticks ? held_between(&s, found.speed)
                               : torque_at(&s, found.speed, 1.0, &torque);

@@ -15,7 +15,8 @@ extern "C" {
 typedef struct gm_steady_solver gm_steady_solver;
 
 GM_NODISCARD gm_status gm_steady_solver_create(const gm_plant *plant,
-                                               gm_steady_solver **solver, gm_error *error);
+                                               gm_steady_solver **solver,
+                                               gm_error *error);
 void gm_steady_solver_destroy(gm_steady_solver *solver);
 
 /** The plant that the solver works on. */
@@ -40,7 +41,8 @@ typedef struct gm_free_path {
 /** Find the speed at which the torque at path p's flange is zero, exactly also where
  *  friction holds (at rest, or turning with a gear). */
 GM_NODISCARD gm_status gm_steady_solve_free(gm_steady_solver *solver, int p,
-                                            gm_steady_point *point, gm_free_path *free_path,
+                                            gm_steady_point *point,
+                                            gm_free_path *free_path,
                                             gm_steady_result *result, gm_error *error);
 
 /** The workspace and the unknowns of the last solved point, for reading losses. */

@@ -2,10 +2,11 @@
  *
  * The steady experiment. The plant's own passes (friction from the last forces, then
  * forces from the leaves to the root) bring the start near the solution and KINSOL
- * finishes; what the passes already solved, KINSOL only confirms. The two fail in different
- * places: passes diverge under strong coupling, where Newton does not care; Newton's line
- * search can stall between the two sides of a kink (a mesh without load), where the passes
- * contract as ever. So what KINSOL leaves unsolved goes to the passes again.
+ * finishes; what the passes already solved, KINSOL only confirms. The two fail in
+ * different places: passes diverge under strong coupling, where Newton does not care;
+ * Newton's line search can stall between the two sides of a kink (a mesh without load),
+ * where the passes contract as ever. So what KINSOL leaves unsolved goes to the passes
+ * again.
  */
 #include "solve/gm_steady_solver.h"
 
@@ -16,14 +17,18 @@
 #include <string.h>
 
 /* Passes gain about two digits each on a layshaft gearset; two after the last solution of
- * a grid line leave KINSOL one or two quadratic iterations. */
-#define PASSES_COLD 6
-#define PASSES_WARM 2
-#define PASSES_LAST 200 /* instead of KINSOL: 0.85 a pass is enough for 1e-12 */
-#define RELATIVE_TOLERANCE 1e-12
-#define SMALLEST_TORQUE 1e-2 /* N.m: 1e-14 N.m is the rounding of the largest balances */
-#define ACCEPTED 100.0       /* residual over tolerance that still counts as solved: the
-                                line search cannot improve on rounding */
+ * a grid line leave KINSOL one or two quadratic iterations. In KINSOL's place, 200 passes
+ * of 0.85 each are enough for 1e-12. */
+enum { PASSES_COLD = 6, PASSES_WARM = 2, PASSES_LAST = 200 };
+
+static const double relative_tolerance = 1e-12;
+
+/* N.m: 1e-14 N.m is the rounding of the largest balances. */
+static const double smallest_torque = 1e-2;
+
+/* Residual over tolerance that still counts as solved: the line search cannot improve on
+ * rounding. */
+static const double accepted = 100.0;
 
 struct gm_steady_solver {
     const gm_plant *plant;
@@ -169,7 +174,7 @@ static gm_status configure(gm_steady_solver *s, const gm_steady_point *point,
 static double largest_torque(const gm_steady_solver *s)
 {
     gm_steady_result result;
-    double largest = SMALLEST_TORQUE;
+    double largest = smallest_torque;
     s->plant->is->result(s->work, s->x, &result);
     for (int flange = 0; flange <= s->plant->info.n_paths; flange++)
         largest = fmax(largest, fabs(result.torque[flange]));
@@ -188,13 +193,13 @@ static double residual_norm(gm_steady_solver *s)
 static void predict(gm_steady_solver *s, int passes)
 {
     for (int i = 0; i < passes; i++)
-        if (s->plant->is->pass(s->work, s->x) < RELATIVE_TOLERANCE)
+        if (s->plant->is->pass(s->work, s->x) < relative_tolerance)
             return;
 }
 
 static int is_solved(gm_steady_solver *s, double tolerance)
 {
-    return residual_norm(s) <= ACCEPTED * tolerance;
+    return residual_norm(s) <= accepted * tolerance;
 }
 
 static void start_at_zero(gm_steady_solver *s)
@@ -209,7 +214,7 @@ static int solve_from(gm_steady_solver *s, int passes)
         start_at_zero(s);
         predict(s, 1);
     }
-    double tolerance = RELATIVE_TOLERANCE * largest_torque(s);
+    double tolerance = relative_tolerance * largest_torque(s);
     (void)gm_sun_newton_solve(s->newton, tolerance, s->x);
     return is_solved(s, tolerance);
 }
@@ -219,7 +224,7 @@ static int solve_by_passes(gm_steady_solver *s)
 {
     start_at_zero(s);
     predict(s, PASSES_LAST);
-    return is_solved(s, RELATIVE_TOLERANCE * largest_torque(s));
+    return is_solved(s, relative_tolerance * largest_torque(s));
 }
 
 static gm_status no_convergence(const gm_steady_solver *s, gm_error *error)

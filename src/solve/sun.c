@@ -56,8 +56,8 @@ static void keep_message(int line, const char *function, const char *file,
                    message ? message : "");
 }
 #else
-static void keep_message(int code, const char *module, const char *function, char *message,
-                         void *user)
+static void keep_message(int code, const char *module, const char *function,
+                         char *message, void *user)
 {
     gm_sun_newton *newton = user;
     (void)code, (void)module;
@@ -240,8 +240,8 @@ int gm_sun_newton_solve(gm_sun_newton *newton, double tolerance, double *x)
     memcpy(array, x, bytes);
     if (KINSetFuncNormTol(newton->kinsol, tolerance))
         return -1;
-    int flag = KINSol(newton->kinsol, newton->x, KIN_LINESEARCH, newton->scale,
-                      newton->scale);
+    int flag =
+        KINSol(newton->kinsol, newton->x, KIN_LINESEARCH, newton->scale, newton->scale);
     memcpy(x, array, bytes);
     return flag;
 }

@@ -212,9 +212,10 @@ static gm_status find_lines(builder *b, int p)
         b->plant->is->drag_lines(b->plant->self, p, GM_SWEEP_MAX_LINES, plan->line[p]);
     if (plan->n_lines[p] < GM_SWEEP_MAX_LINES)
         return GM_OK;
-    return gm_fail(b->error, GM_ERR_ARGUMENT,
-                   "%s: the drag of path %s jumps on %d lines or more, fewer are possible",
-                   b->plant->info.name, b->map->paths[p].name, GM_SWEEP_MAX_LINES);
+    return gm_fail(
+        b->error, GM_ERR_ARGUMENT,
+        "%s: the drag of path %s jumps on %d lines or more, fewer are possible",
+        b->plant->info.name, b->map->paths[p].name, GM_SWEEP_MAX_LINES);
 }
 
 static gm_status plan_lines(builder *b, int p)

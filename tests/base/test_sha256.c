@@ -22,8 +22,8 @@ static void gives_the_published_digest(void **state)
     gm_sha256 *sum = gm_sha256_create();
     gm_sha256_bytes(sum, "abc", 3);
     finish(sum, text);
-    assert_string_equal(text,
-                        "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    assert_string_equal(
+        text, "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
 }
 
 static void keeps_texts_apart(void **state)

@@ -29,8 +29,8 @@ static void accepts_decimal_numbers(void **state)
 static void refuses_what_is_not_a_number(void **state)
 {
     (void)state;
-    static const char *const cases[] = {"",    " ",    "30 mm", "3o0", "nan", "inf",
-                                        "1e",  "0x10", "1,5",   "--1", ".",   "-",
+    static const char *const cases[] = {"",    " ",    "30 mm", "3o0",   "nan",  "inf",
+                                        "1e",  "0x10", "1,5",   "--1",   ".",    "-",
                                         "1 2", " 1",   "1 ",    "1e400", "1.2.3"};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         double value = 42.0;

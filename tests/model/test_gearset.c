@@ -37,10 +37,8 @@ static void solve(gm_balance *balance, const gm_steady_point *point, double *x)
 
 static gm_steady_point in_gear(double w_o, double direction, double torque)
 {
-    return (gm_steady_point){.gear = {1},
-                             .speed = {w_o},
-                             .direction = {direction},
-                             .torque = {0.0, torque}};
+    return (gm_steady_point){
+        .gear = {1}, .speed = {w_o}, .direction = {direction}, .torque = {0.0, torque}};
 }
 
 static gm_element_loss loss_of(gm_balance *balance, const gm_gearset *g, const double *x,
@@ -56,10 +54,10 @@ static gm_element_loss loss_of(gm_balance *balance, const gm_gearset *g, const d
     return losses[0];
 }
 
-/* 100 N.m on the pinion: |A| = 1963.278 N, |B| = 1399.479 N and F_a = 1785.714 N, the same
- * numbers as by hand from F_t = 2 T/d_w (test_statics has the beam equations). The two
- * torque directions exchange the sign of the tilting moment F_a r, and one of them is the
- * published case; seven printed digits. */
+/* 100 N.m on the pinion: |A| = 1963.278 N, |B| = 1399.479 N and F_a = 1785.714 N, the
+ * same numbers as by hand from F_t = 2 T/d_w (test_statics has the beam equations). The
+ * two torque directions exchange the sign of the tilting moment F_a r, and one of them is
+ * the published case; seven printed digits. */
 static void bearing_loads_follow_from_the_torque(void **state)
 {
     (void)state;
@@ -155,8 +153,11 @@ static void ratio_and_inertia_come_from_the_parts(void **state)
 
 static void add_every_friction(reducer *r)
 {
-    static gm_seal seal = {.id = {"seal", 1}, .shaft = 0, .on = GM_HOUSING,
-                           .diameter = 0.03, .model = GM_SEAL_ISO14179_2};
+    static gm_seal seal = {.id = {"seal", 1},
+                           .shaft = 0,
+                           .on = GM_HOUSING,
+                           .diameter = 0.03,
+                           .model = GM_SEAL_ISO14179_2};
     r->meshes[0].loss = GM_MESH_ISO14179_2;
     r->meshes[0].minimum_line_load = 150e3;
     for (int i = 0; i < 4; i++)
@@ -202,7 +203,8 @@ static void power_balances_at_every_point(void **state)
             assert_true(losses[e].power >= 0.0);
             sum += losses[e].power;
         }
-        double in = result.torque[0] * result.speed[0] + result.torque[1] * result.speed[1];
+        double in =
+            result.torque[0] * result.speed[0] + result.torque[1] * result.speed[1];
         double throughput = fabs(result.torque[0] * result.speed[0]) + sum;
         assert_true(fabs(in - sum) <= 1e-9 * throughput + 1e-12);
     }

@@ -11,8 +11,8 @@
 #include <string.h>
 
 /* A helical pinion on a shaft with two bearings, as one would compute it by hand:
- * F_t, F_r, F_a at the pitch point +r e; the tangential plane is a simple beam, the radial
- * plane has the tilting moment F_a r on top. */
+ * F_t, F_r, F_a at the pitch point +r e; the tangential plane is a simple beam, the
+ * radial plane has the tilting moment F_a r on top. */
 #define A_POSITION 0.0
 #define B_POSITION 0.160
 #define GEAR_POSITION 0.060

@@ -73,14 +73,16 @@ static void power_balances_over_the_whole_range(void **state)
                                  .torque = {0.0, 200.0 * sin(0.7 * i)}};
         gm_steady_result result;
         assert_int_equal(gm_steady_solve(rig.solver, &point, &result, NULL), GM_OK);
-        double in = result.torque[0] * result.speed[0] + result.torque[1] * result.speed[1];
+        double in =
+            result.torque[0] * result.speed[0] + result.torque[1] * result.speed[1];
         double throughput = fabs(result.torque[0] * result.speed[0]);
         assert_true(fabs(in - sum_of_losses(&rig)) <= 1e-9 * throughput + 1e-12);
     }
     close_rig(&rig);
 }
 
-/* The start of the iteration may not show in the result: a grid line may begin anywhere. */
+/* The start of the iteration may not show in the result: a grid line may begin anywhere.
+ */
 static void result_does_not_depend_on_the_start(void **state)
 {
     (void)state;
@@ -241,8 +243,8 @@ static void strong_coupling_is_left_to_newton(void **state)
     gm_steady_solver_destroy(solver);
 }
 
-/* x_0 = 3 + 0.4 |x_1|, x_1 = 0.5 x_0 - 2: the passes contract; the Jacobian leads uphill, as
- * that of the wrong side of a kink does. */
+/* x_0 = 3 + 0.4 |x_1|, x_1 = 0.5 x_0 - 2: the passes contract; the Jacobian leads uphill,
+ * as that of the wrong side of a kink does. */
 static void kinked_residual(void *work, const double *x, double *f)
 {
     (void)work;

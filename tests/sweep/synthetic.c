@@ -315,7 +315,7 @@ static int kink_speeds(const void *self, int p, int number, int n_max, double *s
 
 static const gm_plant_class synthetic_class = {
     kinematics, kink_speeds, drag_lines, work_create, work_destroy, set_point, size,
-    entries,    pass,        residual,    pattern,      jacobian,  result,
+    entries,    pass,        residual,   pattern,     jacobian,     result,
 };
 
 void synthetic_init(synthetic *s, int n_paths)
