@@ -28,7 +28,8 @@ static const gm_option options[] = {
      .help = "the component to write"},
     {.kind = GM_OPTION_TEXT, .name = "map", .value = "MAP",
      .offset = offsetof(arguments, map),
-     .help = "keep the map in this file; default: in memory only"},
+     .help = "keep the map, with the measured errors, in this file; default: in memory "
+             "only"},
     GM_SWEEP_OPTIONS(arguments),
     {.kind = GM_OPTION_TEXT, .name = "compiler", .value = "COMMAND",
      .offset = offsetof(arguments, compiler),
@@ -102,6 +103,9 @@ static gm_status bake_and_verify(const arguments *a, reduction *r, const char *n
     if (status != GM_OK)
         return status;
     status = gm_stage_verify(r->file.plant, name, a->points, a->seed, &r->verify, error);
+    if (status == GM_OK && a->map)
+        status =
+            gm_stage_keep_errors(&r->verify, r->file.plant->info.n_paths, a->map, error);
     if (status == GM_OK && rename(name, a->output) != 0)
         status = gm_fail(error, GM_ERR_IO, "%s: cannot be written: %s", a->output,
                          strerror(errno));

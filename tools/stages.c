@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 #include "stages.h"
 
+#include "base/alloc.h"
+#include "map/gm_map_file.h"
+
 #include "files.h"
 #include "fmu_probe.h"
 #include "options.h"
@@ -110,4 +113,38 @@ void gm_stage_verify_clear(gm_verify_stage *stage)
 {
     gm_verify_result_clear(&stage->result);
     memset(stage, 0, sizeof *stage);
+}
+
+static void to_map_error(gm_verify_group group, const gm_verify_case *c, int n_paths,
+                         gm_map_error *e)
+{
+    *e = (gm_map_error){.kind = gm_verify_group_name(group),
+                        .path = c->path,
+                        .gear = {c->gear[0], n_paths > 1 ? c->gear[1] : GM_MAP_ANY},
+                        .direction = c->direction,
+                        .points = c->points,
+                        .largest = c->largest_loss,
+                        .max = c->max,
+                        .rms = c->rms,
+                        .worst_speed = c->worst_speed,
+                        .worst_torque = c->worst_torque};
+}
+
+gm_status gm_stage_keep_errors(const gm_verify_stage *stage, int n_paths, const char *map,
+                               gm_error *error)
+{
+    const gm_verify_result *r = &stage->result;
+    int n = 0;
+    for (int g = 0; g < GM_VERIFY_GROUPS; g++)
+        n += r->n_cases[g];
+    gm_map_error *errors = gm_calloc((size_t)n, sizeof *errors);
+    if (!errors)
+        return gm_fail(error, GM_ERR_MEMORY, "no memory for the measured errors");
+    n = 0;
+    for (int g = 0; g < GM_VERIFY_GROUPS; g++)
+        for (int i = 0; i < r->n_cases[g]; i++)
+            to_map_error((gm_verify_group)g, &r->cases[g][i], n_paths, &errors[n++]);
+    gm_status status = gm_map_put_errors(map, (long long)r->seed, n, errors, error);
+    gm_free(errors);
+    return status;
 }

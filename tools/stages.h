@@ -54,6 +54,10 @@ GM_NODISCARD gm_status gm_stage_verify(const gm_plant *plant, const char *fmu, i
                                        int seed, gm_verify_stage *stage, gm_error *error);
 void gm_stage_verify_clear(gm_verify_stage *stage);
 
+/** Write the errors of a verification into the file of the map that was verified. */
+GM_NODISCARD gm_status gm_stage_keep_errors(const gm_verify_stage *stage, int n_paths,
+                                            const char *map, gm_error *error);
+
 /** Members of the stage's JSON object. */
 void gm_sweep_stage_json(const gm_sweep_stage *stage, gm_json *json);
 void gm_bake_stage_json(const gm_bake_stage *stage, const char *fmu, gm_json *json);

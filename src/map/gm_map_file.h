@@ -21,6 +21,23 @@ extern "C" {
  *  content hash); GM_ERR_MEMORY. What is allocated is bounded by the size of the file. */
 GM_NODISCARD gm_status gm_map_read(const char *path, gm_map **map, gm_error *error);
 
+/** Error of the component that was made from a map, measured at points not on its grid.
+ */
+typedef struct gm_map_error {
+    const char *kind;       /* of points, such as "single" or "both_loaded" */
+    const char *path;       /* the loaded or free path */
+    int gear[GM_MAX_PATHS]; /* numbers, 0 neutral; gear[1] GM_MAP_ANY with one path */
+    int direction;          /* +1, -1: rotation of the output */
+    int points;
+    double largest, max, rms;         /* largest loss of the case, errors [N.m] */
+    double worst_speed, worst_torque; /* where the largest error is [rad/s, N.m] */
+} gm_map_error;
+
+/** Write the measured errors into a finished map's file (table `verification`), in place
+ *  of any that are there. Map and content hash stay as they are. */
+GM_NODISCARD gm_status gm_map_put_errors(const char *path, long long seed, int n,
+                                         const gm_map_error *errors, gm_error *error);
+
 /** A sweep's journal beside the map to be. */
 typedef struct gm_journal gm_journal;
 

@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * Measured errors in a finished map's file.
+ */
+#include "file_fixture.h"
+#include "map_fixture.h"
+
+#include "base/alloc.h"
+
+#include <setjmp.h>
+#include <sqlite3.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static const gm_map_error errors[] = {
+    {"single", "odd", {3, 0}, 1, 120, 6.5, 0.02, 0.004, 100.0, 55.0},
+    {"drag", "even", {0, 0}, -1, 80, 0.4, 0.001, 0.0002, -300.0, 0.0},
+};
+
+static double number(const char *sql)
+{
+    sqlite3 *db;
+    sqlite3_stmt *row;
+    assert_int_equal(sqlite3_open(file_path, &db), SQLITE_OK);
+    assert_int_equal(sqlite3_prepare_v2(db, sql, -1, &row, NULL), SQLITE_OK);
+    assert_int_equal(sqlite3_step(row), SQLITE_ROW);
+    double value = sqlite3_column_double(row, 0);
+    sqlite3_finalize(row);
+    sqlite3_close(db);
+    return value;
+}
+
+static void errors_stand_beside_an_unchanged_map(void **state)
+{
+    (void)state;
+    gm_map *map = fixture_map(&fixture_full);
+    file_write_map(map);
+    assert_int_equal(gm_map_put_errors(file_path, 7, 2, errors, NULL), GM_OK);
+    gm_map *read = file_read_map(file_path);
+    assert_true(fixture_equal(map, read));
+    assert_string_equal(map->content_hash, read->content_hash);
+    assert_true(number("SELECT count(*) FROM verification") == 2.0);
+    assert_true(number("SELECT max_Nm FROM verification WHERE kind = 'single'") == 0.02);
+    assert_true(number("SELECT seed FROM verification WHERE direction = 'backward' AND "
+                       "path = 'even'") == 7.0);
+    assert_true(file_only(file_path));
+    gm_map_destroy(read);
+    gm_map_destroy(map);
+}
+
+static void later_errors_take_the_place_of_earlier_ones(void **state)
+{
+    (void)state;
+    gm_map *map = fixture_map(&fixture_full);
+    file_write_map(map);
+    assert_int_equal(gm_map_put_errors(file_path, 7, 2, errors, NULL), GM_OK);
+    assert_int_equal(gm_map_put_errors(file_path, 8, 1, errors, NULL), GM_OK);
+    assert_true(number("SELECT count(*) FROM verification") == 1.0);
+    assert_true(number("SELECT seed FROM verification") == 8.0);
+    gm_map_destroy(map);
+}
+
+static void what_is_no_map_is_left_alone(void **state)
+{
+    (void)state;
+    gm_error error = {GM_OK, ""};
+    assert_int_equal(gm_map_put_errors(file_path, 1, 2, errors, &error), GM_ERR_IO);
+    assert_non_null(strstr(error.message, "there is no such file"));
+    assert_true(file_only(NULL));
+    file_write_bytes(file_path, "no database", 11);
+    assert_int_equal(gm_map_put_errors(file_path, 1, 2, errors, &error), GM_ERR_FORMAT);
+    size_t size;
+    unsigned char *bytes = file_read_bytes(file_path, &size);
+    assert_int_equal(size, 11);
+    assert_memory_equal(bytes, "no database", 11);
+    gm_free(bytes);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(errors_stand_beside_an_unchanged_map, file_setup,
+                                        file_teardown),
+        cmocka_unit_test_setup_teardown(later_errors_take_the_place_of_earlier_ones,
+                                        file_setup, file_teardown),
+        cmocka_unit_test_setup_teardown(what_is_no_map_is_left_alone, file_setup,
+                                        file_teardown),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
