@@ -39,16 +39,25 @@ int gm_reduced_configuration(const gm_reduced_map *map, const gm_reduced_state *
     return gm_configuration_index(map, state->path);
 }
 
+/* Inputs are multiplied with inertias, ratios and speeds: with this much room (to 1e108 as
+ * a double) nothing overflows on the way, where inf - inf would pass for a torque. */
+#define GM_HEADROOM 1e200
+
+/* 0 for a number that can be computed with, else NaN. */
+static gm_real nothing_of(gm_real x)
+{
+    const gm_real y = x * GM_HEADROOM;
+    return y - y;
+}
+
 static int inputs_are_finite(const gm_reduced_map *map, const gm_reduced_inputs *in)
 {
-    gm_real sum = in->output_tau - in->output_tau +
-                  (in->output_tau_rate - in->output_tau_rate) +
-                  (in->oil_temperature - in->oil_temperature);
+    gm_real sum = nothing_of(in->output_tau) + nothing_of(in->output_tau_rate) +
+                  nothing_of(in->oil_temperature);
     for (int p = 0; p < map->n_paths; p++) {
-        sum += in->path_tau[p] - in->path_tau[p];
-        sum += in->path_tau_rate[p] - in->path_tau_rate[p];
+        sum += nothing_of(in->path_tau[p]) + nothing_of(in->path_tau_rate[p]);
     }
-    return sum == 0; /* x - x is 0 for finite x, else NaN */
+    return sum == 0;
 }
 
 static int motion_is_finite(const gm_reduced_map *map, const gm_motion *s)

@@ -183,8 +183,8 @@ typedef struct gm_reduced_outputs {
 /** Flags of a call, or-ed. */
 enum {
     GM_FLAG_OUT_OF_MAP = 1, /* a table was left; its edge value was used */
-    GM_FLAG_NOT_FINITE = 2, /* a NaN or infinite input, or a result that overflowed: the
-                               state is unchanged */
+    GM_FLAG_NOT_FINITE = 2, /* an input is NaN or beyond 1e108, or a result overflowed:
+                               the state is unchanged */
     GM_FLAG_GEAR_REFUSED_0 = 4, /* unknown gear number commanded on path 0; gear kept */
     GM_FLAG_GEAR_REFUSED_1 = 8
 };
