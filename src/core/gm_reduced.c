@@ -39,8 +39,8 @@ int gm_reduced_configuration(const gm_reduced_map *map, const gm_reduced_state *
     return gm_configuration_index(map, state->path);
 }
 
-/* Inputs are multiplied with inertias, ratios and speeds: with this much room (to 1e108 as
- * a double) nothing overflows on the way, where inf - inf would pass for a torque. */
+/* Inputs are multiplied with inertias, ratios and speeds: with this much room (to 1e108
+ * as a double) nothing overflows on the way, where inf - inf would pass for a torque. */
 #define GM_HEADROOM 1e200
 
 /* 0 for a number that can be computed with, else NaN. */
