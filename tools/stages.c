@@ -55,7 +55,6 @@ gm_status gm_stage_sweep(const gm_gearset_file *file, const gm_sweep_settings *s
                                     &progress, &stage->map, &stage->summary, error);
     gm_progress_end(&progress);
     stage->path = path;
-    stage->size = path ? gm_file_size(path) : 0;
     return status == GM_ERR_INTERRUPTED ? interrupted(path, error) : status;
 }
 

@@ -24,7 +24,6 @@ typedef struct gm_sweep_stage {
     gm_map *map; /* owned */
     gm_sweep_summary summary;
     const char *path; /* NULL: in memory */
-    long size;
 } gm_sweep_stage;
 
 typedef struct gm_bake_stage {
