@@ -331,6 +331,8 @@ gm_status gm_gearset_create(const gm_description *description, double oil_temper
         status = make_bearings(g, error);
     if (status == GM_OK)
         status = make_drags(g, error);
+    if (status == GM_OK)
+        status = gm_gearset_check_ratios(g, error);
     if (status != GM_OK) {
         gm_gearset_destroy(g);
         return status;

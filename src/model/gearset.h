@@ -76,6 +76,11 @@ struct gm_gearset {
 /** Fill bodies and wheel_body. */
 GM_NODISCARD gm_status gm_bodies_make(gm_gearset *gearset, gm_error *error);
 
+/** Every given ratio must be the one that the gears make, within 1e-3 of it and with its
+ *  sign. GM_ERR_MODEL with file, line, path, gear and both ratios; GM_ERR_MEMORY. */
+GM_NODISCARD gm_status gm_gearset_check_ratios(const gm_gearset *gearset,
+                                               gm_error *error);
+
 /** Pitch mass of a wheel from its dimensions, or as given [kg]. */
 double gm_wheel_mass(const gm_description *description, const gm_wheel *wheel);
 

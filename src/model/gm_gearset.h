@@ -27,7 +27,8 @@ extern "C" {
 
 typedef struct gm_gearset gm_gearset;
 
-/** Assemble. oil_temperature [K]. The description must outlive the gearset. */
+/** Assemble. oil_temperature [K]. The description must outlive the gearset.
+ *  GM_ERR_MODEL: a given ratio is not the one that the gears make; GM_ERR_MEMORY. */
 GM_NODISCARD gm_status gm_gearset_create(const gm_description *description,
                                          double oil_temperature, gm_gearset **gearset,
                                          gm_error *error);

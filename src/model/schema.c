@@ -322,7 +322,7 @@ static const gm_field path_gear_fields[] = {
      .help = "the idling gear that is locked to its shaft"},
     {NUMBER("ratio", -1000, 1000), AT(ratio), OPTIONAL,
      .help = "input speed over output speed, negative if they turn in opposite "
-             "directions; the sweep compares it with the model"},
+             "directions; must be what the gears make within 0.001 of it"},
     END};
 static const gm_section path_gear_section = {
     .title = "gears", .word = "gear",

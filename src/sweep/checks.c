@@ -19,15 +19,15 @@ static gm_status check_ratio(const gm_map_path *path, const gm_map_gear *gear,
     double relative = fabs(gear->ratio - given) / fabs(given);
     if (gear->ratio * given < 0)
         return gm_fail(error, GM_ERR_MODEL,
-                       "path '%s', gear %d: the model turns the other way: its ratio is "
-                       "%.6g, given is %.6g",
-                       path->name, gear->number, gear->ratio, given);
+                       "path '%s', gear %d: given ratio %.6g, the model makes %.6g; the "
+                       "sign must be the same",
+                       path->name, gear->number, given, gear->ratio);
     if (!(relative <= GM_RATIO_TOLERANCE))
         return gm_fail(
             error, GM_ERR_MODEL,
-            "path '%s', gear %d: the model's ratio is %.6g, given is %.6g: they "
-            "may differ by %g of it",
-            path->name, gear->number, gear->ratio, given, GM_RATIO_TOLERANCE);
+            "path '%s', gear %d: given ratio %.6g, the model makes %.6g; they may "
+            "differ by %g of it",
+            path->name, gear->number, given, gear->ratio, GM_RATIO_TOLERANCE);
     *deviation = fmax(*deviation, relative);
     return GM_OK;
 }
