@@ -6,6 +6,7 @@
 #include "model/gm_gearset.h"
 #include "plant/gm_builtin.h"
 #include "reduced_probe.h"
+#include "solve/gm_steady_solver.h"
 #include "sweep/gm_sweep.h"
 
 #include <setjmp.h>
@@ -73,6 +74,69 @@ static void random_points_are_within_the_promised_accuracy(void **state)
         assert_true(result.rms_relative[g] <= rms[g]);
     }
     gm_verify_result_clear(&result);
+}
+
+static double coupling_at(double relative_speed)
+{
+    gm_table_key key = gm_table_key_of(GM_COUPLING);
+    const gm_map_table *c = gm_map_find(map, &key);
+    gm_table1 table = {{c->n[0], c->x[0]}, c->value};
+    gm_cell1 cell = {0};
+    return gm_table1_at(&table, 1, &cell, relative_speed).value;
+}
+
+/* Loss torque at the path's flange at a node of D, detailed and reduced: the flange
+   torque is what transmits the node's torque, with the other path at rest. */
+static double error_at_node(gm_steady_solver *solver, const gm_map_table *d, double ratio,
+                            int i, int j, double *loss)
+{
+    reduced_probe of = {.view = view, .loss_factor = 1.0};
+    int p = d->key.path;
+    double sign = d->key.direction[0] == GM_BACKWARD ? -1.0 : 1.0;
+    double w_p = sign * d->x[0][i];
+    gm_steady_point point = {.speed = {w_p / ratio}};
+    gm_steady_result found;
+    gm_reduced_answer answer;
+    point.gear[p] = d->key.gear[p];
+    point.torque[1 + p] = sign * d->x[1][j] - coupling_at(-w_p);
+    assert_int_equal(gm_steady_solve(solver, &point, &found, NULL), GM_OK);
+    assert_int_equal(reduced_probe_at(&of, &point, found.torque[0], &answer, NULL),
+                     GM_OK);
+    double power = found.torque[0] * found.speed[0] + found.torque[1 + p] * w_p;
+    *loss = power / fabs(w_p);
+    return (answer.loss_power - power) / fabs(w_p);
+}
+
+/* 0.01 % of the gear's largest loss: what is left is the solver's tolerance and the own
+   acceleration that an output torque with the detailed loss gives the reduced gearset. */
+static void nodes_of_an_engaged_path_are_met(void **state)
+{
+    gm_steady_solver *solver;
+    double all = 0.0;
+    (void)state;
+    assert_int_equal(gm_steady_solver_create(plant, &solver, NULL), GM_OK);
+    for (int t = 0; t < map->n_tables; t++) {
+        const gm_map_table *d = &map->tables[t];
+        if (d->key.symbol != GM_LOAD_LOSS)
+            continue;
+        int gear[GM_MAX_PATHS] = {0, 0};
+        gm_kinematics kinematics;
+        double largest = 0.0, worst = 0.0;
+        gear[d->key.path] = d->key.gear[d->key.path];
+        assert_int_equal(plant->is->kinematics(plant->self, gear, &kinematics, NULL),
+                         GM_OK);
+        for (int i = 1; i < d->n[0]; i += 3)
+            for (int j = 0; j < d->n[1]; j++) {
+                double loss, error = error_at_node(
+                                 solver, d, kinematics.ratio[d->key.path], i, j, &loss);
+                largest = fmax(largest, loss);
+                worst = fmax(worst, fabs(error));
+            }
+        all = fmax(all, worst / largest);
+        assert_true(worst <= 1e-4 * largest);
+    }
+    print_message("nodes        max %.2e %%\n", 100.0 * all);
+    gm_steady_solver_destroy(solver);
 }
 
 /* On coarse axes, since only the order of the work differs. */
@@ -177,6 +241,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_points_are_within_the_promised_accuracy),
+        cmocka_unit_test(nodes_of_an_engaged_path_are_met),
         cmocka_unit_test(threads_do_not_change_the_result),
         cmocka_unit_test(parasitic_losses_are_never_negative),
         cmocka_unit_test(the_total_loss_is_never_negative),
