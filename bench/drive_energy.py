@@ -132,6 +132,19 @@ def loss_power(m, w_o, w, a_o, tau, gear, mode):
     return power
 
 
+def closing_loss(m, p, w_o, w, gear, before, after):
+    """Energy of the slip that a synchroniser removes in the step in which it closes."""
+    if after[p] != 2 or before[p] == 2:
+        return 0.0
+    r = m.ratio[p, gear[p]]
+    q = 1 - p
+    output = m.inertia_output
+    if before[q] == 2:
+        output += m.ratio[q, gear[q]]**2 * m.inertia[q]
+    reduced = m.inertia[p] * output / (output + r * r * m.inertia[p])
+    return 0.5 * reduced * (w[p] - r * w_o)**2
+
+
 class Component:
     NAMES = ["odd.w", "even.w", "output.w", "odd.phi", "even.phi", "output.phi", "work",
              "loss_energy", "kinetic_energy"]
@@ -200,6 +213,8 @@ def drive(component, m, h):
         work += tau[0] * (q0 - p0) + tau[1] * (q1 - p1) - pull * (qo - po)
         lost += h * loss_power(m, 0.5 * (wo + no), (0.5 * (w0 + n0), 0.5 * (w1 + n1)),
                                (no - wo) / h, tau, gears, after)
+        lost += sum(closing_loss(m, p, wo, (w0, w1), gears, mode, after) for p in range(2))
+        mode = after
         account = max(account, abs(total - loss - (kinetic - kinetic_start)))
         if 42.0 < t < 49.0 and v == 0.0:
             creep = max(creep, abs(no))

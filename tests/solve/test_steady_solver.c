@@ -293,6 +293,46 @@ static void what_newton_cannot_solve_is_left_to_the_passes(void **state)
     gm_steady_solver_destroy(solver);
 }
 
+/* x_0 = 2 - 1.6 (x_0 - 0.5): full passes go to and fro and grow, half steps contract. */
+static void steep_residual(void *work, const double *x, double *f)
+{
+    (void)work;
+    f[0] = 2.0 - 1.6 * (x[0] - 0.5) - x[0];
+    f[1] = 0.5 * x[0] - x[1];
+}
+
+static double steep_pass(void *work, double *x)
+{
+    double f[2];
+    steep_residual(work, x, f);
+    x[0] += f[0];
+    x[1] += f[1];
+    return fmax(fabs(f[0]), fabs(f[1]));
+}
+
+static void steep_friction_is_solved_in_part_steps(void **state)
+{
+    (void)state;
+    const gm_plant_class steep = {.work_create = strong_create,
+                                  .work_destroy = strong_destroy,
+                                  .set_point = strong_point,
+                                  .size = two,
+                                  .entries = four,
+                                  .pass = steep_pass,
+                                  .residual = steep_residual,
+                                  .pattern = strong_pattern,
+                                  .jacobian = misleading_jacobian,
+                                  .result = strong_result};
+    const gm_plant plant = {.is = &steep, .info = {.name = "steep", .n_paths = 1}};
+    gm_steady_solver *solver;
+    gm_steady_point point = {.gear = {1}};
+    gm_steady_result result;
+    assert_int_equal(gm_steady_solver_create(&plant, &solver, NULL), GM_OK);
+    assert_int_equal(gm_steady_solve(solver, &point, &result, NULL), GM_OK);
+    assert_true(fabs(result.torque[0] - 2.8 / 2.6) < 1e-10);
+    gm_steady_solver_destroy(solver);
+}
+
 static void no_residual(void *work, const double *x, double *f)
 {
     (void)work;
@@ -364,6 +404,7 @@ int main(void)
         cmocka_unit_test(free_input_is_held_at_rest),
         cmocka_unit_test(strong_coupling_is_left_to_newton),
         cmocka_unit_test(what_newton_cannot_solve_is_left_to_the_passes),
+        cmocka_unit_test(steep_friction_is_solved_in_part_steps),
         cmocka_unit_test(point_without_solution_is_named),
         cmocka_unit_test(failing_memory_leaves_nothing_behind),
     };
