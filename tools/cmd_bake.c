@@ -26,37 +26,41 @@ static const gm_option options[] = {
     {.kind = GM_OPTION_TEXT, .name = "format", .value = "NAME", .fallback = "fmu2",
      .offset = offsetof(arguments, format),
      .help = "fmu2: FMI 2.0 Co-Simulation"},
-    {.kind = GM_OPTION_TEXT, .name = "compiler", .value = "COMMAND",
-     .offset = offsetof(arguments, compiler),
-     .help = "C compiler; default: $CC, else cc, gcc or clang"},
-    {.kind = GM_OPTION_FLAG, .name = "json", .offset = offsetof(arguments, json),
-     .help = "print the result as JSON"},
+    GM_COMPILER_OPTION(arguments),
+    GM_JSON_OPTION(arguments),
 };
 // clang-format on
 
-static void print_result(const arguments *a, const gm_bake_stage *stage)
+typedef struct baked {
+    gm_bake_stage stage;
+    const char *output;
+} baked;
+
+static void print_text(const void *result, FILE *out)
 {
-    if (!a->json) {
-        gm_bake_stage_print(stage, a->output, stdout);
-        return;
-    }
-    gm_json json;
-    gm_json_start(&json, stdout);
-    gm_bake_stage_json(stage, a->output, &json);
-    gm_json_finish(&json);
+    const baked *b = result;
+    gm_bake_stage_print(&b->stage, b->output, out);
 }
+
+static void print_json(const void *result, gm_json *json)
+{
+    const baked *b = result;
+    gm_bake_stage_json(&b->stage, b->output, json);
+}
+
+static const gm_result_form form = {print_text, print_json};
 
 static gm_status bake(const arguments *a, gm_error *error)
 {
     gm_map *map = NULL;
-    gm_bake_stage stage;
+    baked result = {.output = a->output};
     gm_status status = gm_file_check_output(a->output, a->map, error);
     if (status == GM_OK)
         status = gm_map_read(a->map, &map, error);
     if (status == GM_OK)
-        status = gm_stage_bake(map, a->compiler, a->output, &stage, error);
+        status = gm_stage_bake(map, a->compiler, a->output, &result.stage, error);
     if (status == GM_OK)
-        print_result(a, &stage);
+        status = gm_command_print(&form, a->json, &result, error);
     gm_map_destroy(map);
     return status;
 }

@@ -17,9 +17,7 @@ typedef struct arguments {
 
 // clang-format off
 static const gm_option options[] = {
-    {.kind = GM_OPTION_OPERAND, .name = "FILE", .required = 1,
-     .offset = offsetof(arguments, description),
-     .help = "the description of the gearset"},
+    GM_DESCRIPTION_OPERAND(arguments),
     {.kind = GM_OPTION_INTEGER, .name = "gear", .value = "N", .low = -9, .high = 99,
      .offset = offsetof(arguments, gear),
      .help = "print the losses of an operating point in this gear (-1: reverse)"},
@@ -32,12 +30,9 @@ static const gm_option options[] = {
     {.kind = GM_OPTION_INTEGER, .name = "preselect", .value = "N", .low = -9, .high = 99,
      .fallback = "0", .offset = offsetof(arguments, preselect),
      .help = "gear engaged without load on the other path; 0: that path is free"},
-    {.kind = GM_OPTION_QUANTITY, .name = "oil-temperature", .value = "TEMPERATURE",
-     .unit = "degC", .low = -50, .high = 200,
-     .offset = offsetof(arguments, oil_temperature),
-     .help = "oil temperature; default: the description's"},
-    {.kind = GM_OPTION_FLAG, .name = "json", .offset = offsetof(arguments, json),
-     .help = "print the result as JSON"},
+    GM_OIL_OPTION(offsetof(arguments, oil_temperature),
+                  "oil temperature; default: the description's"),
+    GM_JSON_OPTION(arguments),
 };
 // clang-format on
 
@@ -59,36 +54,43 @@ static const char *usage_problem(const arguments *a)
     return a->speed == 0.0 ? "an operating point needs a speed other than 0" : NULL;
 }
 
-static void print_result(const arguments *a, const gm_checked_gearset *gearset,
-                         const gm_checked_point *point)
+typedef struct checked {
+    gm_checked_gearset gearset;
+    gm_checked_point point;
+    int has_point;
+} checked;
+
+static void print_text(const void *result, FILE *out)
 {
-    gm_json json;
-    if (a->json) {
-        gm_json_start(&json, stdout);
-        gm_checked_gearset_json(gearset, &json);
-        if (point)
-            gm_checked_point_json(point, &json);
-        gm_json_finish(&json);
-    } else if (point) {
-        gm_checked_point_print(point, stdout);
-    } else {
-        gm_checked_gearset_print(gearset, stdout);
-    }
+    const checked *c = result;
+    if (c->has_point)
+        gm_checked_point_print(&c->point, out);
+    else
+        gm_checked_gearset_print(&c->gearset, out);
 }
+
+static void print_json(const void *result, gm_json *json)
+{
+    const checked *c = result;
+    gm_checked_gearset_json(&c->gearset, json);
+    if (c->has_point)
+        gm_checked_point_json(&c->point, json);
+}
+
+static const gm_result_form form = {print_text, print_json};
 
 static gm_status check_open_file(const arguments *a, const gm_gearset_file *file,
                                  gm_error *error)
 {
-    gm_checked_gearset gearset = {0};
-    gm_checked_point point = {0};
+    checked c = {.has_point = wants_point(a)};
     const gm_point_request request = {a->gear, a->preselect, a->speed, a->torque};
-    gm_status status = gm_check_gearset(file, &gearset, error);
-    if (status == GM_OK && wants_point(a))
-        status = gm_check_point(file, &request, &point, error);
+    gm_status status = gm_check_gearset(file, &c.gearset, error);
+    if (status == GM_OK && c.has_point)
+        status = gm_check_point(file, &request, &c.point, error);
     if (status == GM_OK)
-        print_result(a, &gearset, wants_point(a) ? &point : NULL);
-    gm_checked_point_clear(&point);
-    gm_checked_gearset_clear(&gearset);
+        status = gm_command_print(&form, a->json, &c, error);
+    gm_checked_point_clear(&c.point);
+    gm_checked_gearset_clear(&c.gearset);
     return status;
 }
 

@@ -15,17 +15,26 @@ typedef struct arguments {
 
 // clang-format off
 static const gm_option options[] = {
-    {.kind = GM_OPTION_OPERAND, .name = "FILE", .required = 1,
-     .offset = offsetof(arguments, description),
-     .help = "the description of the gearset"},
+    GM_DESCRIPTION_OPERAND(arguments),
     {.kind = GM_OPTION_TEXT, .name = "output", .letter = 'o', .value = "MAP",
      .required = 1, .offset = offsetof(arguments, output),
      .help = "the map to write"},
     GM_SWEEP_OPTIONS(arguments),
-    {.kind = GM_OPTION_FLAG, .name = "json", .offset = offsetof(arguments, json),
-     .help = "print the result as JSON"},
+    GM_JSON_OPTION(arguments),
 };
 // clang-format on
+
+static void print_text(const void *result, FILE *out)
+{
+    gm_sweep_stage_print(result, out);
+}
+
+static void print_json(const void *result, gm_json *json)
+{
+    gm_sweep_stage_json(result, json);
+}
+
+static const gm_result_form form = {print_text, print_json};
 
 static gm_status sweep(const arguments *a, gm_error *error)
 {
@@ -38,14 +47,8 @@ static gm_status sweep(const arguments *a, gm_error *error)
     if (status != GM_OK)
         return status;
     status = gm_stage_sweep(&file, &a->sweep, a->output, &stage, error);
-    if (status == GM_OK && a->json) {
-        gm_json json;
-        gm_json_start(&json, stdout);
-        gm_sweep_stage_json(&stage, &json);
-        gm_json_finish(&json);
-    } else if (status == GM_OK) {
-        gm_sweep_stage_print(&stage, stdout);
-    }
+    if (status == GM_OK)
+        status = gm_command_print(&form, a->json, &stage, error);
     gm_stage_sweep_clear(&stage);
     gm_gearset_file_close(&file);
     return status;

@@ -5,6 +5,7 @@
 #ifndef COMMANDS_H
 #define COMMANDS_H
 
+#include "json.h"
 #include "options.h"
 
 enum { GM_EXIT_DONE = 0, GM_EXIT_FAILED = 1, GM_EXIT_USAGE = 2 };
@@ -17,5 +18,16 @@ extern const gm_command gm_command_verify;
 
 /** Exit code of a command that came to this status; its sentence goes to stderr. */
 int gm_command_end(gm_status status, const gm_error *error);
+
+/** The result of a command as text for people and as members of a JSON object. */
+typedef struct gm_result_form {
+    void (*print)(const void *result, FILE *out);
+    void (*json)(const void *result, gm_json *json);
+} gm_result_form;
+
+/** Print a result on the standard output in one of its forms. GM_ERR_IO when it could not
+ *  be written. */
+GM_NODISCARD gm_status gm_command_print(const gm_result_form *form, int as_json,
+                                        const void *result, gm_error *error);
 
 #endif

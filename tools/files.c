@@ -3,7 +3,6 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -44,6 +43,37 @@ gm_status gm_file_check_output(const char *output, const char *input, gm_error *
     (void)close(file);
     (void)unlink(trial);
     return GM_OK;
+}
+
+/* Where path is: device and number of its folder, and its last name. A path without a
+ * last name, such as "a/", names no file. */
+static bool locate(const char *path, struct stat *folder, const char **name)
+{
+    char parent[GM_PATH_SIZE];
+    const char *slash = strrchr(path, '/');
+    *name = slash ? slash + 1 : path;
+    int n = snprintf(parent, sizeof parent, "%.*s.", (int)(*name - path), path);
+    return n < (int)sizeof parent && **name && stat(parent, folder) == 0;
+}
+
+bool gm_file_is_same(const char *a, const char *b)
+{
+    struct stat in_a, in_b;
+    const char *name_a, *name_b;
+    if (stat(a, &in_a) == 0 && stat(b, &in_b) == 0)
+        return in_a.st_dev == in_b.st_dev && in_a.st_ino == in_b.st_ino;
+    return locate(a, &in_a, &name_a) && locate(b, &in_b, &name_b) &&
+           in_a.st_dev == in_b.st_dev && in_a.st_ino == in_b.st_ino &&
+           strcmp(name_a, name_b) == 0;
+}
+
+gm_status gm_file_own_name(const char *path, char name[GM_PATH_SIZE], gm_error *error)
+{
+    int n = snprintf(name, GM_PATH_SIZE, "%s.%ld.new", path, (long)getpid());
+    if (n > 0 && n < GM_PATH_SIZE)
+        return GM_OK;
+    return gm_fail(error, GM_ERR_IO, "%.60s...: cannot be written: the name is too long",
+                   path);
 }
 
 long gm_file_size(const char *path)

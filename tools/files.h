@@ -8,6 +8,8 @@
 
 #include "base/gm_status.h"
 
+#include <stdbool.h>
+
 #define GM_PATH_SIZE 4096
 
 /** Refuse an output that could not be written at the end: a folder that does not exist or
@@ -15,6 +17,15 @@
  *  Leaves nothing behind. GM_ERR_IO. */
 GM_NODISCARD gm_status gm_file_check_output(const char *output, const char *input,
                                             gm_error *error);
+
+/** Do two names, of files that need not exist, mean the same place? Their folders are
+ *  resolved. */
+bool gm_file_is_same(const char *a, const char *b);
+
+/** A name beside path that no other running process uses: path.PID.new. GM_ERR_IO when it
+ *  is too long. */
+GM_NODISCARD gm_status gm_file_own_name(const char *path, char name[GM_PATH_SIZE],
+                                        gm_error *error);
 
 /** Size in bytes, -1 when there is no such file. */
 long gm_file_size(const char *path);

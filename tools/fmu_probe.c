@@ -7,14 +7,14 @@
 #include "fmu_probe.h"
 
 #include "base/alloc.h"
-#include "plant/gm_fmu.h"
 
 #include <stdio.h>
 
 #define NAME 64
 
 typedef struct path_variables {
-    unsigned tau, gear, w_start, loss_torque;
+    const char *name;
+    unsigned tau, gear, gear_refused, w_start, loss_torque;
 } path_variables;
 
 struct gm_fmu_probe {
@@ -35,9 +35,12 @@ static gm_status find(const gm_fmu *fmu, const char *path, const char *variable,
 static gm_status find_path(gm_fmu_probe *probe, int p, const char *path, gm_error *error)
 {
     path_variables *v = &probe->path[p];
+    v->name = path;
     gm_status status = find(probe->fmu, path, "tau", &v->tau, error);
     if (status == GM_OK)
         status = find(probe->fmu, path, "gear", &v->gear, error);
+    if (status == GM_OK)
+        status = find(probe->fmu, path, "gear_refused", &v->gear_refused, error);
     if (status == GM_OK)
         status = find(probe->fmu, path, "w_start", &v->w_start, error);
     if (status == GM_OK)
@@ -59,8 +62,7 @@ static gm_status find_output(gm_fmu_probe *probe, gm_error *error)
 }
 
 /* An FMU of another gearset may have more paths than the plant: that must not pass. */
-static gm_status check_paths(const gm_fmu *fmu, const char *file, const gm_plant *plant,
-                             gm_error *error)
+static gm_status check_paths(const gm_fmu *fmu, const gm_plant *plant, gm_error *error)
 {
     static const char *const tau[] = {"input.tau", "odd.tau", "even.tau"};
     int n = 0;
@@ -68,43 +70,39 @@ static gm_status check_paths(const gm_fmu *fmu, const char *file, const gm_plant
         n += gm_fmu_has(fmu, tau[i]);
     if (n != plant->info.n_paths)
         return gm_fail(error, GM_ERR_MODEL,
-                       "%s: has %d input flanges where the gearset %s has %d", file, n,
-                       plant->info.name, plant->info.n_paths);
+                       "%s: has %d input flange%s where the gearset %s has %d",
+                       gm_fmu_path(fmu), n, n == 1 ? "" : "s", plant->info.name,
+                       plant->info.n_paths);
     return GM_OK;
 }
 
-static gm_status find_variables(gm_fmu_probe *probe, const char *file,
-                                const gm_plant *plant, gm_error *error)
+static gm_status find_variables(gm_fmu_probe *probe, const gm_plant *plant,
+                                gm_error *error)
 {
-    gm_status status = check_paths(probe->fmu, file, plant, error);
+    gm_status status = check_paths(probe->fmu, plant, error);
     probe->n_paths = plant->info.n_paths;
     for (int p = 0; status == GM_OK && p < probe->n_paths; p++)
         status = find_path(probe, p, plant->info.path[p].name, error);
     return status == GM_OK ? find_output(probe, error) : status;
 }
 
-gm_status gm_fmu_probe_open(const char *path, const gm_plant *plant, gm_fmu_probe **probe,
-                            gm_error *error)
+gm_status gm_fmu_probe_create(gm_fmu *fmu, const gm_plant *plant, gm_fmu_probe **probe,
+                              gm_error *error)
 {
     gm_fmu_probe *made = gm_calloc(1, sizeof *made);
     if (!made)
-        return gm_fail(error, GM_ERR_MEMORY, "%s: out of memory", path);
-    gm_status status = gm_fmu_open(path, &made->fmu, error);
+        return gm_fail(error, GM_ERR_MEMORY, "%s: out of memory", gm_fmu_path(fmu));
+    made->fmu = fmu;
+    gm_status status = find_variables(made, plant, error);
     if (status == GM_OK)
-        status = find_variables(made, path, plant, error);
-    if (status != GM_OK) {
-        gm_fmu_probe_close(made);
-        return status;
-    }
-    *probe = made;
-    return GM_OK;
+        *probe = made;
+    else
+        gm_fmu_probe_destroy(made);
+    return status;
 }
 
-void gm_fmu_probe_close(gm_fmu_probe *probe)
+void gm_fmu_probe_destroy(gm_fmu_probe *probe)
 {
-    if (!probe)
-        return;
-    gm_fmu_close(probe->fmu);
     gm_free(probe);
 }
 
@@ -138,6 +136,23 @@ static gm_status set_point(gm_fmu_probe *probe, const gm_steady_point *point,
     return status == GM_OK ? gm_fmu_start(probe->fmu, error) : status;
 }
 
+/* A gear that the component does not have is not refused by a call: it stays in the gear
+ * that it was in, and says so. */
+static gm_status check_gears(gm_fmu_probe *probe, const gm_steady_point *point,
+                             gm_error *error)
+{
+    gm_status status = GM_OK;
+    for (int p = 0; status == GM_OK && p < probe->n_paths; p++) {
+        const path_variables *v = &probe->path[p];
+        int refused = 0;
+        status = gm_fmu_get_boolean(probe->fmu, v->gear_refused, &refused, error);
+        if (status == GM_OK && refused)
+            status = gm_fail(error, GM_ERR_MODEL, "%s: has no gear %d on path %s",
+                             gm_fmu_path(probe->fmu), point->gear[p], v->name);
+    }
+    return status;
+}
+
 static gm_status read_answer(gm_fmu_probe *probe, const gm_steady_point *point,
                              gm_reduced_answer *answer, gm_error *error)
 {
@@ -161,6 +176,8 @@ static gm_status probe_at(void *self, const gm_steady_point *point, double outpu
 {
     gm_fmu_probe *probe = self;
     gm_status status = set_point(probe, point, output_torque, error);
+    if (status == GM_OK)
+        status = check_gears(probe, point, error);
     return status == GM_OK ? read_answer(probe, point, answer, error) : status;
 }
 

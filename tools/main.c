@@ -7,8 +7,12 @@
 #include "base/text.h"
 #include "model/gm_description.h"
 
+#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
+
+#define UNWRITABLE "the standard output could not be written"
 
 static const gm_command *const commands[] = {
     &gm_command_check,  &gm_command_sweep,  &gm_command_bake,
@@ -45,6 +49,22 @@ int gm_command_end(gm_status status, const gm_error *error)
     const char *sentence = error->message[0] ? error->message : gm_status_text(status);
     fprintf(stderr, "gearmap: %s\n", sentence);
     return GM_EXIT_FAILED;
+}
+
+gm_status gm_command_print(const gm_result_form *form, int as_json, const void *result,
+                           gm_error *error)
+{
+    if (as_json) {
+        gm_json json;
+        gm_json_start(&json, stdout);
+        form->json(result, &json);
+        gm_json_finish(&json);
+    } else {
+        form->print(result, stdout);
+    }
+    if (fflush(stdout) == 0 && !ferror(stdout))
+        return GM_OK;
+    return gm_fail(error, GM_ERR_IO, UNWRITABLE);
 }
 
 static const gm_command *find_command(const char *name)
@@ -128,12 +148,23 @@ static int dispatch(int argc, char **argv)
     return run_command(word, argc - 2, argv + 2);
 }
 
+/* A file that is opened must never take the place of a closed standard stream. What then
+ * stands for the standard output can only be read: writing to it fails, as it should. */
+static void fill_standard_streams(void)
+{
+    for (int stream = 0; stream <= 2; stream++)
+        if (fcntl(stream, F_GETFD) < 0 &&
+            open("/dev/null", stream == 1 ? O_RDONLY : O_RDWR) < 0)
+            return;
+}
+
 /* A full disk or a closed pipe behind the standard output is a failure too. */
 int main(int argc, char **argv)
 {
+    fill_standard_streams();
     int code = dispatch(argc, argv);
     if ((fflush(stdout) != 0 || ferror(stdout)) && code == GM_EXIT_DONE) {
-        fputs("gearmap: the standard output could not be written\n", stderr);
+        fputs("gearmap: " UNWRITABLE "\n", stderr);
         code = GM_EXIT_FAILED;
     }
     return code;

@@ -54,6 +54,33 @@ typedef enum gm_parse_outcome {
     GM_PARSE_WRONG
 } gm_parse_outcome;
 
+/* Entries that the tables of several commands share. T: the type of the command's
+ * arguments, which has the field that is named. */
+// clang-format off
+#define GM_DESCRIPTION_OPERAND(T)                                                        \
+    {.kind = GM_OPTION_OPERAND, .name = "FILE", .required = 1,                           \
+     .offset = offsetof(T, description), .help = "the description of the gearset"}
+#define GM_OIL_OPTION(OFFSET, HELP)                                                      \
+    {.kind = GM_OPTION_QUANTITY, .name = "oil-temperature", .value = "TEMPERATURE",      \
+     .unit = "degC", .low = -50, .high = 200, .offset = OFFSET, .help = HELP}
+#define GM_COMPILER_OPTION(T)                                                            \
+    {.kind = GM_OPTION_TEXT, .name = "compiler", .value = "COMMAND",                     \
+     .offset = offsetof(T, compiler),                                                    \
+     .help = "C compiler, with arguments after spaces: 'gcc -m64'; default: $CC, else "  \
+             "cc, gcc or clang"}
+#define GM_POINTS_OPTION(T)                                                              \
+    {.kind = GM_OPTION_INTEGER, .name = "points", .value = "N", .low = 1, .high = 1e7,   \
+     .fallback = "2000", .offset = offsetof(T, points),                                  \
+     .help = "number of points of each kind to compare at"}
+#define GM_SEED_OPTION(T)                                                                \
+    {.kind = GM_OPTION_INTEGER, .name = "seed", .value = "N", .low = 0,                  \
+     .high = 2147483647.0, .fallback = "1", .offset = offsetof(T, seed),                 \
+     .help = "start of the random numbers"}
+#define GM_JSON_OPTION(T)                                                                \
+    {.kind = GM_OPTION_FLAG, .name = "json", .offset = offsetof(T, json),                \
+     .help = "print the result as JSON"}
+// clang-format on
+
 /** Read argv[argc] (without program and command name) into *arguments, of
  *  command->size bytes. GM_PARSE_WRONG leaves the sentence in *error. */
 gm_parse_outcome gm_options_parse(const gm_command *command, int argc, char **argv,

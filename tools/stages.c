@@ -86,13 +86,13 @@ gm_status gm_stage_bake(const gm_map *map, const char *compiler, const char *pat
     return gm_fail(error, GM_ERR_INTERRUPTED, "interrupted; no component was written");
 }
 
-gm_status gm_stage_verify(const gm_plant *plant, const char *fmu, int points, int seed,
+gm_status gm_stage_verify(const gm_plant *plant, gm_fmu *fmu, int points, int seed,
                           gm_verify_stage *stage, gm_error *error)
 {
     gm_fmu_probe *probe = NULL;
     double start = gm_stage_clock();
     memset(stage, 0, sizeof *stage);
-    gm_status status = gm_fmu_probe_open(fmu, plant, &probe, error);
+    gm_status status = gm_fmu_probe_create(fmu, plant, &probe, error);
     if (status != GM_OK)
         return status;
     const gm_reduced_probe interface = gm_fmu_probe_interface(probe);
@@ -101,7 +101,7 @@ gm_status gm_stage_verify(const gm_plant *plant, const char *fmu, int points, in
     status = gm_verify_steady(plant, &interface, points, (uint64_t)seed, &stage->result,
                               error);
     gm_progress_end(&progress);
-    gm_fmu_probe_close(probe);
+    gm_fmu_probe_destroy(probe);
     stage->elapsed = gm_stage_clock() - start;
     if (gm_progress_interrupted())
         return gm_fail(error, GM_ERR_INTERRUPTED, "interrupted; nothing was verified");

@@ -9,6 +9,7 @@
 #include "bake/gm_bake.h"
 #include "gearset_file.h"
 #include "json.h"
+#include "plant/gm_fmu.h"
 #include "sweep/gm_sweep.h"
 #include "sweep/gm_verify.h"
 
@@ -48,8 +49,8 @@ GM_NODISCARD gm_status gm_stage_bake(const gm_map *map, const char *compiler,
                                      const char *path, gm_bake_stage *stage,
                                      gm_error *error);
 
-/** Compare the FMU file with the plant. */
-GM_NODISCARD gm_status gm_stage_verify(const gm_plant *plant, const char *fmu, int points,
+/** Compare the FMU with the plant. */
+GM_NODISCARD gm_status gm_stage_verify(const gm_plant *plant, gm_fmu *fmu, int points,
                                        int seed, gm_verify_stage *stage, gm_error *error);
 void gm_stage_verify_clear(gm_verify_stage *stage);
 
@@ -95,10 +96,8 @@ double gm_stage_clock(void);
     {.kind = GM_OPTION_INTEGER, .name = "threads", .value = "N", .low = 1, .high = 1024, \
      .offset = GM_SWEEP_OPTION(type, threads),                                           \
      .help = "threads to compute with; default: one per core"},                          \
-    {.kind = GM_OPTION_QUANTITY, .name = "oil-temperature", .value = "TEMPERATURE",      \
-     .unit = "degC", .low = -50, .high = 200,                                            \
-     .offset = GM_SWEEP_OPTION(type, oil_temperature),                                   \
-     .help = "oil temperature; default: the description's"}
+    GM_OIL_OPTION(GM_SWEEP_OPTION(type, oil_temperature),                                \
+                  "oil temperature; default: the description's")
 // clang-format on
 
 #endif

@@ -286,6 +286,21 @@ static void write_experiment(xml *x)
     end(x);
 }
 
+/* What the component was made from, so that a verification can tell. */
+static void write_origin(xml *x)
+{
+    start(x, "VendorAnnotations");
+    start(x, "Tool");
+    text(x, "name", "gearmap");
+    start(x, "Gearset");
+    foreign_text(x, "descriptionSha256", x->map->input_sha256);
+    foreign_text(x, "mapContentHash", x->map->content_hash);
+    number(x, "oilTemperature", x->map->oil_temperature); /* K */
+    end(x);
+    end(x);
+    end(x);
+}
+
 static double start_value(const xml *x, scalar s)
 {
     if (s.id != VARIABLE_PATH_SYNC_TORQUE)
@@ -417,6 +432,7 @@ static void write_document(xml *x, const gm_description_options *options)
     write_types(x);
     write_log_categories(x);
     write_experiment(x);
+    write_origin(x);
     write_variables(x);
     write_structure(x);
     end(x);

@@ -97,6 +97,17 @@ void gm_fmu_close(gm_fmu *fmu)
     gm_free(fmu);
 }
 
+gm_fmu_origin gm_fmu_read_origin(const gm_fmu *fmu)
+{
+    const fmu_description *d = &fmu->description;
+    return (gm_fmu_origin){d->source_sha256, d->map_hash, d->oil_temperature};
+}
+
+const char *gm_fmu_path(const gm_fmu *fmu)
+{
+    return fmu->path;
+}
+
 gm_status gm_fmu_find(const gm_fmu *fmu, const char *name, unsigned *reference,
                       gm_error *error)
 {
@@ -143,6 +154,17 @@ gm_status gm_fmu_get_real(gm_fmu *fmu, unsigned reference, double *value, gm_err
                 fmu->library.GetReal(fmu->component, &reference, 1, &got), error);
     if (status == GM_OK)
         *value = got;
+    return status;
+}
+
+gm_status gm_fmu_get_boolean(gm_fmu *fmu, unsigned reference, int *value, gm_error *error)
+{
+    fmi2Boolean got = fmi2False;
+    gm_status status =
+        checked(fmu, "fmi2GetBoolean",
+                fmu->library.GetBoolean(fmu->component, &reference, 1, &got), error);
+    if (status == GM_OK)
+        *value = got != fmi2False;
     return status;
 }
 

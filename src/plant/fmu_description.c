@@ -5,9 +5,11 @@
 #include "plant/fmu_description.h"
 
 #include "base/alloc.h"
+#include "base/text.h"
 
 #include <libxml/parser.h>
 #include <libxml/tree.h>
+#include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -76,6 +78,52 @@ static gm_status read_variables(xmlNode *list, const char *archive, fmu_descript
     return status;
 }
 
+/* The annotation of the program that made the component; NULL when another did. */
+static xmlNode *find_origin(xmlNode *root)
+{
+    xmlNode *list = child(root, "VendorAnnotations");
+    for (xmlNode *tool = list ? list->children : NULL; tool; tool = tool->next) {
+        xmlChar *name =
+            tool->type == XML_ELEMENT_NODE ? xmlGetProp(tool, BAD_CAST "name") : NULL;
+        bool ours = name && !xmlStrcmp(name, BAD_CAST "gearmap");
+        xmlFree(name);
+        if (ours)
+            return child(tool, "Gearset");
+    }
+    return NULL;
+}
+
+/* An attribute that may be missing; no memory is told apart from that. */
+static gm_status read_optional(xmlNode *node, const char *name, const char *archive,
+                               char **value, gm_error *error)
+{
+    *value = attribute(node, name);
+    if (*value || !xmlHasProp(node, BAD_CAST name))
+        return GM_OK;
+    return gm_fail(error, GM_ERR_MEMORY, "no memory to read %s", archive);
+}
+
+static gm_status read_origin(xmlNode *root, const char *archive, fmu_description *d,
+                             gm_error *error)
+{
+    xmlNode *origin = find_origin(root);
+    char *temperature = NULL;
+    d->oil_temperature = (double)NAN;
+    if (!origin)
+        return GM_OK;
+    gm_status status =
+        read_optional(origin, "oilTemperature", archive, &temperature, error);
+    if (temperature)
+        (void)gm_text_to_double(temperature, &d->oil_temperature);
+    gm_free(temperature);
+    if (status == GM_OK)
+        status =
+            read_optional(origin, "descriptionSha256", archive, &d->source_sha256, error);
+    if (status == GM_OK)
+        status = read_optional(origin, "mapContentHash", archive, &d->map_hash, error);
+    return status;
+}
+
 /* The identifier becomes part of a path. */
 static bool is_identifier(const char *text)
 {
@@ -104,7 +152,8 @@ static gm_status read_root(xmlNode *root, const char *archive, fmu_description *
         return gm_fail(error, GM_ERR_FORMAT,
                        "%s: modelDescription.xml has no GUID or no model identifier",
                        archive);
-    return read_variables(list, archive, d, error);
+    gm_status status = read_origin(root, archive, d, error);
+    return status == GM_OK ? read_variables(list, archive, d, error) : status;
 }
 
 static void keep_quiet(void *context, xmlErrorPtr message)
@@ -158,5 +207,7 @@ void gm_fmu_description_clear(fmu_description *description)
     gm_free(description->variables);
     gm_free(description->guid);
     gm_free(description->identifier);
+    gm_free(description->source_sha256);
+    gm_free(description->map_hash);
     *description = (fmu_description){0};
 }

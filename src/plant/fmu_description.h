@@ -13,7 +13,9 @@ typedef struct fmu_variable {
 } fmu_variable;
 
 typedef struct fmu_description {
-    char *guid, *identifier; /* of the Co-Simulation interface */
+    char *guid, *identifier;        /* of the Co-Simulation interface */
+    char *source_sha256, *map_hash; /* NULL: not stated */
+    double oil_temperature;         /* K, NAN: not stated */
     int n_variables;
     fmu_variable *variables; /* [n_variables], sorted by name */
 } fmu_description;

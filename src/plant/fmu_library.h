@@ -20,6 +20,7 @@
     X(SetReal)                                                                           \
     X(SetInteger)                                                                        \
     X(GetReal)                                                                           \
+    X(GetBoolean)                                                                        \
     X(DoStep)
 
 typedef struct fmu_library {

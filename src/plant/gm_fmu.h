@@ -19,6 +19,18 @@ typedef struct gm_fmu gm_fmu;
 GM_NODISCARD gm_status gm_fmu_open(const char *path, gm_fmu **fmu, gm_error *error);
 void gm_fmu_close(gm_fmu *fmu);
 
+/** What a component says it was made from. */
+typedef struct gm_fmu_origin {
+    const char *description_sha256; /* NULL: it does not say */
+    const char *map_hash;           /* content hash of the map; NULL: it does not say */
+    double oil_temperature;         /* K; NAN: it does not say */
+} gm_fmu_origin;
+
+/** The texts belong to the FMU. */
+gm_fmu_origin gm_fmu_read_origin(const gm_fmu *fmu);
+/** The name it was opened by; belongs to the FMU. */
+const char *gm_fmu_path(const gm_fmu *fmu);
+
 /** Value reference of a variable; GM_ERR_FORMAT when there is none of this name. */
 GM_NODISCARD gm_status gm_fmu_find(const gm_fmu *fmu, const char *name,
                                    unsigned *reference, gm_error *error);
@@ -31,6 +43,8 @@ GM_NODISCARD gm_status gm_fmu_set_integer(gm_fmu *fmu, unsigned reference, int v
                                           gm_error *error);
 GM_NODISCARD gm_status gm_fmu_get_real(gm_fmu *fmu, unsigned reference, double *value,
                                        gm_error *error);
+GM_NODISCARD gm_status gm_fmu_get_boolean(gm_fmu *fmu, unsigned reference, int *value,
+                                          gm_error *error);
 
 /** Back to the state after instantiation. */
 GM_NODISCARD gm_status gm_fmu_reset(gm_fmu *fmu, gm_error *error);

@@ -66,4 +66,4 @@ def test_the_component_simulates(reduced):
 def test_a_component_of_another_gearset_is_refused(reduced):
     path, _ = reduced
     assert fails("verify", EXAMPLE, path, "--steady") == \
-        f"{path}: has 1 input flanges where the gearset dct7 has 2"
+        f"{path}: has 1 input flange where the gearset dct7 has 2"

@@ -130,6 +130,18 @@ static void variables_are_found_by_name(void **state)
     gm_fmu_close(fmu);
 }
 
+static void what_it_was_made_from_is_read(void **state)
+{
+    gm_fmu *fmu = open_good(*state);
+    gm_map *map = example_map(2);
+    const gm_fmu_origin origin = gm_fmu_read_origin(fmu);
+    assert_string_equal(origin.description_sha256, map->input_sha256);
+    assert_string_equal(origin.map_hash, map->content_hash);
+    assert_true(origin.oil_temperature == map->oil_temperature);
+    gm_map_destroy(map);
+    gm_fmu_close(fmu);
+}
+
 static void what_the_fmu_says_is_passed_on(void **state)
 {
     gm_fmu *fmu = open_good(*state);
@@ -351,6 +363,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_baked_fmu_runs),
+        cmocka_unit_test(what_it_was_made_from_is_read),
         cmocka_unit_test(variables_are_found_by_name),
         cmocka_unit_test(what_the_fmu_says_is_passed_on),
         cmocka_unit_test(several_fmus_live_side_by_side),
