@@ -278,9 +278,21 @@ void gm_drag_terms(const gm_drive *d, int p, gm_real sign_n, gm_real sign_o,
     } else {
         add_all(d, p, &q, sign_n, sign_o, t);
     }
+    if (sign_n * at->m[p] < 0) {
+        terms->drag_n = terms->reaction_n = 0;
+    }
+    if (sign_o * at->m[GM_OUT] < 0) {
+        terms->drag_o = terms->reaction_o = 0;
+    }
 }
 
 /* ---- do they hold at another point? ---- */
+
+/* Beyond rest the terms are constants, before it a surface. */
+static int same_side_of_rest(gm_real sign, gm_real m, gm_real to)
+{
+    return (sign * m < 0) == (sign * to < 0);
+}
 
 static int small(gm_real rest, gm_real value)
 {
@@ -321,6 +333,10 @@ int gm_drag_holds(const gm_drive *d, const gm_solution *s, int p, const gm_point
     const gm_path_terms *t = &s->terms.path[p];
     const place q = place_of(p, s->sign[p], s->sign[GM_OUT], from);
     const place to = place_of(p, s->sign[p], s->sign[GM_OUT], next);
+    if (!same_side_of_rest(s->sign[p], from->m[p], next->m[p]) ||
+        !same_side_of_rest(s->sign[GM_OUT], from->m[GM_OUT], next->m[GM_OUT])) {
+        return 0;
+    }
     if (t->patched) {
         return patch_holds(&d->cache->patch[p][q.i], &q, &to, t);
     }

@@ -9,7 +9,7 @@
  *
  * The drag of free paths is in reduced_drag.c. Sources: the equations in gm_reduced.h.
  * Speeds enter the tables as magnitudes; an iterate that overshoots standstill is read at
- * zero.
+ * zero, as a constant.
  */
 #include "reduced_parts.h"
 #include "cell.h"
@@ -56,7 +56,7 @@ static void load_terms(const gm_drive *d, int p, gm_real sign_o, const gm_point 
                     sigma * at->tau_m[p]);
     gm_path_terms *path = &t->path[p];
     path->load = d->scale * sigma * v.value;
-    path->load_o = d->scale * v.dx * gear->ratio;
+    path->load_o = sigma * at->m[p] < 0 ? 0 : d->scale * v.dx * gear->ratio;
     path->load_tau = d->scale * v.dy;
     t->outside |= v.outside;
 }
@@ -76,7 +76,7 @@ static void add_both_loaded(const gm_drive *d, gm_real sigma, const gm_point *at
         table, d->index + 1, &d->cache->both_loaded[gm_direction(sigma)],
         gm_not_below_zero(sigma * at->m[GM_OUT]), s0 * at->tau_m[0], s1 * at->tau_m[1]);
     t->out += scale * sigma * v.value;
-    t->out_o += scale * v.dx;
+    t->out_o += sigma * at->m[GM_OUT] < 0 ? 0 : scale * v.dx;
     t->out_tau[0] = scale * sigma * v.dy * s0;
     t->out_tau[1] = scale * sigma * v.dz * s1;
     t->outside |= v.outside;
@@ -89,7 +89,7 @@ void gm_output_terms(const gm_drive *d, gm_real sigma, const gm_point *at, gm_te
         gm_cell1_at(&d->configuration->parasitic[dir], d->index + 1,
                     &d->cache->parasitic[dir], gm_not_below_zero(sigma * at->m[GM_OUT]));
     t->out = d->scale * sigma * v.value;
-    t->out_o = d->scale * v.dx;
+    t->out_o = sigma * at->m[GM_OUT] < 0 ? 0 : d->scale * v.dx;
     t->outside |= v.outside;
     for (int p = 0; p < d->n_paths; p++) {
         if (d->engaged[p]) {
@@ -119,10 +119,15 @@ void gm_terms_at(const gm_drive *d, gm_solution *s, gm_point *at)
     }
 }
 
-/* ---- do they hold at another point? ---- */
+/* ---- do they hold at another point? ----
+ *
+ * Speeds beyond rest are compared as they are: there the terms are constants, not the
+ * first cell. */
 
 /* Of the remainder the part of the two torques is the largest by far: each changes with
- * the acceleration, the speed only with half a step of it. */
+ * the acceleration, the speed only with half a step of it. It does not fall with the step
+ * (the first guess of the acceleration may be wrong at any), so next to nothing of it may
+ * be left out. */
 static int both_loaded_holds(const gm_drive *d, const gm_solution *s, const gm_point *at,
                              const gm_point *to)
 {
@@ -135,13 +140,11 @@ static int both_loaded_holds(const gm_drive *d, const gm_solution *s, const gm_p
     }
     const gm_real s0 = d->ratio[0] < 0 ? -sigma : sigma;
     const gm_real s1 = d->ratio[1] < 0 ? -sigma : sigma;
-    return gm_stays(c->x_low, c->x_high, gm_not_below_zero(sigma * at->m[GM_OUT]),
-                    gm_not_below_zero(sigma * to->m[GM_OUT])) &&
+    return gm_stays(c->x_low, c->x_high, sigma * at->m[GM_OUT], sigma * to->m[GM_OUT]) &&
            gm_stays(c->y_low, c->y_high, s0 * at->tau_m[0], s0 * to->tau_m[0]) &&
            gm_stays(c->z_low, c->z_high, s1 * at->tau_m[1], s1 * to->tau_m[1]) &&
            gm_abs(c->c[0][1][1] * (to->tau_m[0] - at->tau_m[0]) *
-                  (to->tau_m[1] - at->tau_m[1])) <=
-               GM_REMAINDER * gm_abs(s->terms.out) + GM_REMAINDER_NM;
+                  (to->tau_m[1] - at->tau_m[1])) <= GM_REMAINDER_NM;
 }
 
 static int output_holds(const gm_drive *d, const gm_solution *s, const gm_point *at,
@@ -149,17 +152,15 @@ static int output_holds(const gm_drive *d, const gm_solution *s, const gm_point 
 {
     const gm_real sign_o = s->sign[GM_OUT];
     const gm_cell1 *c = &d->cache->parasitic[gm_direction(sign_o)];
-    if (!gm_stays(c->x_low, c->x_high, gm_not_below_zero(sign_o * at->m[GM_OUT]),
-                  gm_not_below_zero(sign_o * to->m[GM_OUT])) ||
+    if (!gm_stays(c->x_low, c->x_high, sign_o * at->m[GM_OUT], sign_o * to->m[GM_OUT]) ||
         !both_loaded_holds(d, s, at, to)) {
         return 0;
     }
     for (int p = 0; p < d->n_paths; p++) {
         const gm_real sign = d->ratio[p] < 0 ? -sign_o : sign_o;
         if (d->engaged[p] &&
-            !gm_cell2_holds(&d->cache->load_loss[p][gm_direction(sign)],
-                            gm_not_below_zero(sign * at->m[p]), sign * at->tau_m[p],
-                            gm_not_below_zero(sign * to->m[p]), sign * to->tau_m[p],
+            !gm_cell2_holds(&d->cache->load_loss[p][gm_direction(sign)], sign * at->m[p],
+                            sign * at->tau_m[p], sign * to->m[p], sign * to->tau_m[p],
                             s->terms.path[p].load)) {
             return 0;
         }
