@@ -9,6 +9,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <stddef.h>
 
 const char *gm_bearing_type_name(gm_bearing_type type)
 {
@@ -37,18 +38,36 @@ static bool needs_C0(const gm_bearing_data *data)
                                data->type == GM_BEARING_ANGULAR_CONTACT_BALL);
 }
 
+/* Palmgren tells cylindrical rollers with and without a cage by the series, if given. */
+static bool needs_row(const gm_bearing_data *data)
+{
+    if (data->friction == GM_FRICTION_PALMGREN)
+        return data->type == GM_BEARING_CYLINDRICAL_ROLLER && data->series[0] != '\0';
+    return data->friction == GM_FRICTION_SKF;
+}
+
 static gm_status check(const gm_bearing_data *data, gm_error *error)
 {
     const char *kind = gm_bearing_type_name(data->type);
+    const char *model = data->friction == GM_FRICTION_SKF ? "skf" : "palmgren";
+    if (isnan(data->d) || isnan(data->D))
+        return gm_fail(error, GM_ERR_MODEL,
+                       "a %s with friction %s needs bore_mm and outer_mm%s", kind, model,
+                       data->type == GM_BEARING_DEEP_GROOVE_BALL ? ", or its designation"
+                                                                 : "");
     if (!(data->d > 0. && data->D > data->d))
         return gm_fail(error, GM_ERR_MODEL,
-                       "a %s needs 0 < d < D, but d is %g mm and D is %g mm", kind,
+                       "bore_mm must be less than outer_mm; found %g and %g",
                        1e3 * data->d, 1e3 * data->D);
     if (data->type == GM_BEARING_TAPERED_ROLLER && !(data->Y > 0.))
-        return gm_fail(error, GM_ERR_MODEL, "a %s needs its axial factor Y > 0", kind);
+        return gm_fail(error, GM_ERR_MODEL,
+                       "a %s with friction %s needs axial_factor, its Y", kind, model);
     if (needs_C0(data) && !(data->C0 > 0.))
-        return gm_fail(error, GM_ERR_MODEL, "a %s needs its static load rating C0 > 0",
-                       kind);
+        return gm_fail(error, GM_ERR_MODEL,
+                       "a %s with friction %s needs static_load_N, its static load "
+                       "rating C0%s",
+                       kind, model,
+                       data->friction == GM_FRICTION_PALMGREN ? ", or f1" : "");
     return GM_OK;
 }
 
@@ -61,14 +80,13 @@ gm_status gm_bearing_law_make(const gm_bearing_data *data, const gm_oil *oil,
         status = gm_bearing_data_complete(&made.data, error);
     if (status == GM_OK && data->friction != GM_FRICTION_NONE)
         status = check(&made.data, error);
+    const gm_skf_row *row = NULL;
+    if (status == GM_OK && needs_row(&made.data))
+        status = gm_skf_find(made.data.type, made.data.series, &row, error);
     if (status == GM_OK && data->friction == GM_FRICTION_PALMGREN)
         gm_palmgren_make(&made);
-    if (status == GM_OK && data->friction == GM_FRICTION_SKF) {
-        const gm_skf_row *row;
-        status = gm_skf_find(made.data.type, made.data.series, &row, error);
-        if (status == GM_OK)
-            gm_skf_make(&made, row, oil->bearing_mu_ehl);
-    }
+    if (status == GM_OK && data->friction == GM_FRICTION_SKF)
+        gm_skf_make(&made, row, oil->bearing_mu_ehl);
     if (status == GM_OK)
         *law = made;
     return status;

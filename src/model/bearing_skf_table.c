@@ -150,8 +150,7 @@ static gm_status unknown_series(gm_bearing_type type, const char *series,
     const char *kind = gm_bearing_type_name(type);
     if (series[0] == '\0')
         return gm_fail(error, GM_ERR_MODEL,
-                       "a %s with the SKF friction model needs its series: one of %s",
-                       kind, known);
+                       "a %s with friction skf needs its series: one of %s", kind, known);
     int near = gm_text_nearest(series, names, n < MAX_ROWS ? n : MAX_ROWS);
     if (near >= 0)
         return gm_fail(error, GM_ERR_MODEL,

@@ -63,6 +63,10 @@ static gm_status check_gear(const gm_description *d, const gm_wheel *w, gm_error
         return gm_part_fail(d, "gear", &w->id, error,
                             "a gear with internal teeth needs inertia_kgm2 and mass_kg, "
                             "which do not follow from its teeth");
+    if (!w->idles && w->bearing.D != 0.0)
+        return gm_part_fail(d, "gear", &w->id, error,
+                            "a gear that does not idle turns with its shaft: its bearing "
+                            "has no effect");
     if (w->idles && w->bearing.D == 0.0) /* the group is absent */
         return gm_part_fail(d, "gear", &w->id, error, "an idling gear needs a bearing");
     gm_status status = check_position(d, w, error);

@@ -111,6 +111,23 @@ static gm_status check_lock(const gm_description *d, const gm_path_part *path,
     return GM_OK;
 }
 
+/* The same gear under two numbers. */
+static gm_status check_lock_once(const gm_description *d, const gm_path_part *path, int i,
+                                 gm_error *error)
+{
+    const gm_path_gear *gear = &path->gears[i];
+    gm_label id = path->id;
+    id.line = gear->line;
+    for (int k = 0; k < i; k++)
+        if (path->gears[k].wheel == gear->wheel)
+            return gm_part_fail(
+                d, "path", &id, error,
+                "gear %d: locks '%s', already locked by gear %d in line %d", gear->number,
+                d->wheels[gear->wheel].id.name, path->gears[k].number,
+                path->gears[k].line);
+    return GM_OK;
+}
+
 static gm_status check_chain(const groups *g, const gm_path_part *path,
                              const gm_path_gear *gear, gm_error *error)
 {
@@ -143,6 +160,8 @@ static gm_status check_path(const groups *g, const gm_path_part *path, gm_error 
                 "a number stands for one gear; found it twice, here for",
                 g->d->wheels[gear->wheel].id.name, "");
         status = check_lock(g->d, path, gear, error);
+        if (status == GM_OK)
+            status = check_lock_once(g->d, path, i, error);
         if (status == GM_OK)
             status = check_chain(g, path, gear, error);
     }

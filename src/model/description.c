@@ -151,13 +151,34 @@ static void arrange(gm_description *d)
     }
 }
 
+/* A series that no friction model would look at. */
+static gm_status check_series(const gm_description *d, const char *word,
+                              const gm_label *id, const gm_bearing_data *data,
+                              gm_error *error)
+{
+    if (data->series[0] == '\0')
+        return GM_OK;
+    if (data->designation[0] != '\0')
+        return gm_part_fail(d, word, id, error,
+                            "the series follows from the designation; found series '%s' "
+                            "beside designation '%s'",
+                            data->series, data->designation);
+    if (data->type == GM_BEARING_NEEDLE_ROLLER)
+        return gm_part_fail(d, word, id, error,
+                            "the series of a needle roller bearing has no effect, found "
+                            "'%s'",
+                            data->series);
+    return GM_OK;
+}
+
 static gm_status complete_bearing(const gm_description *d, const char *word,
                                   const gm_label *id, gm_bearing_data *data,
                                   gm_error *error)
 {
     gm_error why = {GM_OK, ""};
-    if (data->designation[0] == '\0')
-        return GM_OK;
+    gm_status status = check_series(d, word, id, data, error);
+    if (status != GM_OK || data->designation[0] == '\0')
+        return status;
     if (!isnan(data->d) || !isnan(data->D) || !isnan(data->B) || !isnan(data->C0))
         return gm_part_fail(d, word, id, error,
                             "a bearing has either a designation or dimensions; found "

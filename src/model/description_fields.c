@@ -144,7 +144,10 @@ static gm_status read_absent(const gm_field_reader *r, gm_slot *s)
     if (s->field->type == GM_FIELD_GROUP)
         return read_group(r, s);
     char text[64];
-    gm_yaml fallback = {.kind = GM_YAML_SCALAR, .line = s->in->line, .text = text};
+    gm_yaml fallback = {.kind = GM_YAML_SCALAR,
+                        .line = s->in->line,
+                        .text = text,
+                        .quoted = s->field->type == GM_FIELD_TEXT};
     (void)snprintf(text, sizeof text, "%s", s->field->fallback);
     s->node = &fallback;
     return read_value(r, s);
@@ -268,8 +271,33 @@ static gm_status visit_declare(const gm_field_reader *r, gm_slot *s)
     return s->field->type == GM_FIELD_ITEMS && s->node ? declare_items(r, s) : GM_OK;
 }
 
+/* The word of a choice: as the file has it, or its fallback. */
+static const char *chosen(const gm_place *p, const char *key)
+{
+    size_t offset;
+    const gm_yaml *node = p->node ? gm_yaml_get(p->node, key) : NULL;
+    return node ? node->text : gm_schema_find(p->section, key, &offset)->fallback;
+}
+
+/* A value that nothing reads is a mistake. The choice itself was read before. */
+static gm_status check_effect(const gm_field_reader *r, const gm_slot *s)
+{
+    const gm_field *f = s->field;
+    if (!f->only_key || !s->node)
+        return GM_OK;
+    const char *word = chosen(s->in, f->only_key);
+    if (strcmp(word, f->only_word) == 0)
+        return GM_OK;
+    return gm_description_fail(r->d->file, s->node->line, s->in->element, GM_ERR_FORMAT,
+                               r->error, "%s has an effect only with %s %s, found %s %s",
+                               f->key, f->only_key, f->only_word, f->only_key, word);
+}
+
 static gm_status visit_read(const gm_field_reader *r, gm_slot *s)
 {
+    gm_status status = check_effect(r, s);
+    if (status != GM_OK)
+        return status;
     return s->node ? read_value(r, s) : read_absent(r, s);
 }
 

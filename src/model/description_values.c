@@ -90,11 +90,21 @@ static int one_line(const char *text)
     return 1;
 }
 
+/* What YAML takes for no value at all. */
+static int is_null(const gm_yaml *node)
+{
+    static const char *const words[] = {"", "~", "null", "Null", "NULL"};
+    for (size_t i = 0; plain_scalar(node) && i < sizeof words / sizeof words[0]; i++)
+        if (strcmp(node->text, words[i]) == 0)
+            return 1;
+    return 0;
+}
+
 static gm_status read_words(const gm_field_reader *r, const gm_slot *s)
 {
     if (s->node->kind != GM_YAML_SCALAR || strlen(s->node->text) >= GM_NAME_SIZE ||
-        !one_line(s->node->text) ||
-        (s->node->text[0] == '\0' && s->field->need == GM_NEED_VALUE))
+        !one_line(s->node->text) || strspn(s->node->text, " ") == strlen(s->node->text) ||
+        is_null(s->node))
         return gm_slot_wrong(r, s, "");
     memcpy(s->target, s->node->text, strlen(s->node->text) + 1);
     return GM_OK;
@@ -102,7 +112,7 @@ static gm_status read_words(const gm_field_reader *r, const gm_slot *s)
 
 static gm_status read_text(const gm_field_reader *r, const gm_slot *s)
 {
-    if (s->node->kind != GM_YAML_SCALAR)
+    if (s->node->kind != GM_YAML_SCALAR || is_null(s->node))
         return gm_slot_wrong(r, s, "");
     char *copy = gm_strdup(s->node->text);
     if (!copy)

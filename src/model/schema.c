@@ -45,13 +45,14 @@ static const gm_unit units[] = {
 #define ABOVE .open = GM_OPEN_LOW
 #define DEFAULT(text) .need = GM_NEED_DEFAULT, .fallback = text
 #define OPTIONAL .need = GM_NEED_NOTHING
+#define ONLY(key, word) .only_key = key, .only_word = word
 #define END {.key = NULL}
 
 static const gm_section shaft_section, gear_section;
 
 #define OWNER gm_description
 static const gm_field limit_fields[] = {
-    {NUMBER("input_speed_max_rpm", 0, 100000), ABOVE, AT(speed_max),
+    {NUMBER("input_speed_max_rpm", 10, 100000), AT(speed_max),
      .help = "largest input speed; the default sweep goes up to it"},
     {NUMBER("input_torque_max_Nm", 0, 100000), ABOVE, AT(torque_max),
      .help = "largest input torque; the default sweep goes up to it"},
@@ -146,19 +147,21 @@ static const gm_field bearing_data_fields[] = {
      .help = "deep groove ball bearings: the catalogue's number, such as \"6206\", in "
              "place of dimensions"},
     {.key = "series", .type = GM_FIELD_WORDS, OPTIONAL, AT(series),
-     .help = "row of the SKF friction constants, such as \"62\" or \"22\"; default "
-             "of the type"},
+     .help = "row of the SKF friction constants, such as \"62\" or \"22\"; what each "
+             "type needs, and all series, stand above"},
     {NUMBER("bore_mm", 0, 2000), ABOVE, AT(d), OPTIONAL, .help = "inner diameter d"},
     {NUMBER("outer_mm", 0, 2000), ABOVE, AT(D), OPTIONAL, .help = "outer diameter D"},
     {NUMBER("width_mm", 0, 1000), ABOVE, AT(B), OPTIONAL, .help = "width B"},
     {NUMBER("static_load_N", 0, 1e8), ABOVE, AT(C0), OPTIONAL,
-     .help = "static load rating C0; ball bearings need it"},
+     .help = "static load rating C0; deep groove ball bearings need it, angular contact "
+             "ones with palmgren and without f1"},
     {NUMBER("axial_factor", 0, 10), ABOVE, AT(Y), OPTIONAL,
-     .help = "Y of a tapered roller bearing"},
-    {NUMBER("f0", 0, 100), ABOVE, AT(f0), OPTIONAL,
-     .help = "Palmgren: factor of the part without load; default of the type"},
-    {NUMBER("f1", 0, 1), ABOVE, AT(f1), OPTIONAL,
-     .help = "Palmgren: factor of the part with load; default of the type"},
+     ONLY("type", "tapered_roller"),
+     .help = "Y of the catalogue; needed but with friction none"},
+    {NUMBER("f0", 0, 100), ABOVE, AT(f0), OPTIONAL, ONLY("friction", "palmgren"),
+     .help = "factor of the part without load; default of the type"},
+    {NUMBER("f1", 0, 1), ABOVE, AT(f1), OPTIONAL, ONLY("friction", "palmgren"),
+     .help = "factor of the part with load; default of the type"},
     END};
 static const gm_section bearing_data_section = {
     .title = "bearing", .word = "bearing", .help = "Data of one rolling bearing.",
@@ -211,10 +214,11 @@ static const gm_field mesh_loss_fields[] = {
     {.key = "model", .type = GM_FIELD_CHOICE, .choices = mesh_losses, AT(loss),
      DEFAULT("iso14179_2"),
      .help = "iso14179_2: Schlenk's friction and Ohlendorf's loss factor"},
-    {NUMBER("efficiency", 0.5, 1), AT(efficiency), OPTIONAL,
-     .help = "of the constant model"},
+    {NUMBER("efficiency", 0.5, 1), AT(efficiency), OPTIONAL, ONLY("model", "constant"),
+     .help = "share of the power that leaves; the constant model needs it"},
     {NUMBER("minimum_line_load_N_mm", 0, 10000), AT(minimum_line_load), DEFAULT("150"),
-     .help = "iso14179_2: smallest F_bt/b in the coefficient of friction"},
+     ONLY("model", "iso14179_2"),
+     .help = "smallest F_bt/b in the coefficient of friction"},
     END};
 static const gm_section mesh_loss_section = {
     .title = "loss", .word = "loss", .help = "Loss that depends on load.",
@@ -302,7 +306,8 @@ static const gm_field synchroniser_fields[] = {
      .count_offset = offsetof(gm_synchroniser, n_wheels),
      .help = "the idling gears beside it, one of which it locks at a time"},
     {NUMBER("cone_torque_Nm", 0, 1e5), ABOVE, AT(cone_torque),
-     .help = "friction torque up to which its cones synchronise"},
+     .help = "friction torque up to which its cones synchronise; a path has one "
+             "capacity, the smallest of its gears at the input flange"},
     {NUMBER("cone_radius_mm", 0, 1000), ABOVE, AT(cone_radius), .help = "mean radius"},
     {NUMBER("cone_width_mm", 0, 1000), ABOVE, AT(cone_width),
      .help = "length of the cone"},

@@ -55,6 +55,8 @@ typedef struct gm_field {
     size_t offset;             /* of the value in the outer section's structure */
     size_t count_offset;       /* items, references: of the int count; 0: none */
     int fixed_count;           /* references: exactly so many; items: at most, in place */
+    const char *only_key;  /* has an effect only where this choice of the section ... */
+    const char *only_word; /* ... is this word; NULL: always */
     const char *help;
 } gm_field;
 

@@ -78,7 +78,7 @@ void gm_schema_expectation(const gm_field *field, char *text, size_t size)
         add(text, size, "true or false");
         break;
     case GM_FIELD_WORDS:
-        add(text, size, "one line of at most %d bytes", GM_NAME_SIZE - 1);
+        add(text, size, "one line of 1 to %d bytes", GM_NAME_SIZE - 1);
         break;
     case GM_FIELD_TEXT:
         add(text, size, "text");
@@ -121,6 +121,8 @@ static void write_field(const writer *w, const gm_field *field)
         add(text, sizeof text, ", default %s", field->fallback);
     else if (field->need != GM_NEED_VALUE)
         add(text, sizeof text, ", optional");
+    if (field->only_key)
+        add(text, sizeof text, ", only with %s %s", field->only_key, field->only_word);
     const char *const pieces[] = {"- `", field->key, "`: ", field->help,
                                   " (",  text,       ")\n"};
     for (size_t i = 0; i < sizeof pieces / sizeof pieces[0]; i++)

@@ -63,3 +63,29 @@ gm_description *gm_test_read(const char *path)
         fail_msg("%s", error.message);
     return d;
 }
+
+void gm_test_rule_answers(const char *example, const char *file, const gm_test_rule *rule)
+{
+    char expected[GM_ERROR_MESSAGE_SIZE];
+    gm_error error = {GM_OK, ""};
+    gm_description *d = NULL;
+    char *text = gm_test_replaced(example, rule->find, rule->replace);
+    gm_test_spill(file, text);
+    gm_status status = gm_description_read(file, &d, &error);
+    if (status != rule->status)
+        fail_msg("'%s': status %d, %s", rule->replace, status, error.message);
+    assert_null(d);
+    assert_null(strchr(error.message, '\n'));
+    int line = rule->at ? gm_test_line_of(text, rule->at) + (rule->at[0] == '\n') : 0;
+    int n = snprintf(expected, sizeof expected, "%s:%d: %s", file, line, rule->sentence);
+    if (rule->other)
+        (void)snprintf(expected + n, sizeof expected - (size_t)n, "%d",
+                       gm_test_line_of(text, rule->other));
+    const char *tail = strstr(error.message, ": ");
+    assert_non_null(tail);
+    if (rule->at)
+        assert_string_equal(error.message, expected);
+    else
+        assert_string_equal(tail + 2, rule->sentence);
+    free(text);
+}

@@ -22,4 +22,17 @@ int gm_test_line_of(const char *text, const char *find);
 /** A description that must be valid. */
 gm_description *gm_test_read(const char *path);
 
+/** A rule broken in a copy of the example, and its sentence. */
+typedef struct gm_test_rule {
+    const char *find, *replace;
+    const char *at;       /* text in the line that the message names; NULL: any line */
+    const char *sentence; /* after file and line */
+    gm_status status;
+    const char *other; /* text in the line whose number ends the sentence; NULL: none */
+} gm_test_rule;
+
+/** Break it in a file; fails unless exactly that sentence comes. */
+void gm_test_rule_answers(const char *example, const char *file,
+                          const gm_test_rule *rule);
+
 #endif

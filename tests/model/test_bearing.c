@@ -93,6 +93,11 @@ static void unknown_series_are_refused(void **state)
     check_refused(data, "302, 303, 313 X");
     data.series[0] = '\0';
     check_refused(data, "needs its series");
+    data = bearing_of(GM_BEARING_CYLINDRICAL_ROLLER, GM_FRICTION_PALMGREN);
+    strcpy(data.series, "all_full_kompl");
+    check_refused(data, "no series \"all_full_kompl\" of cylindrical roller bearings");
+    data = bearing_of(GM_BEARING_TAPERED_ROLLER, GM_FRICTION_SKF);
+    data.series[0] = '\0';
     /* the longest list is not cut: the last name is in it */
     check_refused(data, "all_other");
 }
@@ -102,17 +107,22 @@ static void missing_numbers_are_refused(void **state)
     (void)state;
     gm_bearing_data data = bearing_of(GM_BEARING_DEEP_GROOVE_BALL, GM_FRICTION_SKF);
     data.D = 25e-3;
-    check_refused(data, "d is 30 mm and D is 25 mm");
+    check_refused(data, "bore_mm must be less than outer_mm; found 30 and 25");
     data.D = (double)NAN;
-    check_refused(data, "0 < d < D");
+    check_refused(data, "a deep groove ball bearing with friction skf needs bore_mm and "
+                        "outer_mm, or its designation");
     data = bearing_of(GM_BEARING_DEEP_GROOVE_BALL, GM_FRICTION_SKF);
     data.C0 = (double)NAN;
-    check_refused(data, "static load rating");
+    check_refused(data,
+                  "a deep groove ball bearing with friction skf needs static_load_N, "
+                  "its static load rating C0");
     data.friction = GM_FRICTION_PALMGREN;
-    check_refused(data, "static load rating");
+    check_refused(data, "a deep groove ball bearing with friction palmgren needs "
+                        "static_load_N, its static load rating C0, or f1");
     data = bearing_of(GM_BEARING_TAPERED_ROLLER, GM_FRICTION_PALMGREN);
     data.Y = 0.;
-    check_refused(data, "axial factor Y");
+    check_refused(data, "a tapered roller bearing with friction palmgren needs "
+                        "axial_factor, its Y");
 }
 
 static void series_are_found_without_case_and_blanks(void **state)
