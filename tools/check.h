@@ -44,6 +44,7 @@ typedef struct gm_checked_point {
     const char *path, *other; /* names; other NULL: one path only */
     double other_speed;       /* rad/s */
     int other_sticks;         /* 1: in neutral and held by friction */
+    int other_gear;           /* then the gear that it turns in step with; 0: none */
     double output_speed, output_torque;
     double loss;            /* W, of all elements */
     double oil_temperature; /* K */

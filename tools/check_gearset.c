@@ -96,16 +96,53 @@ static void print_gear(const gm_checked_gearset *c, const gm_checked_gear *g, FI
     fputc('\n', out);
 }
 
+static void print_counts(const gm_description *d, FILE *out)
+{
+    const struct {
+        int n;
+        const char *one, *many;
+    } parts[] = {
+        {d->n_shafts, "shaft", "shafts"},
+        {d->n_wheels, "gear", "gears"},
+        {d->n_meshes, "mesh", "meshes"},
+        {d->n_bearings, "bearing", "bearings"},
+        {d->n_seals, "seal", "seals"},
+        {d->n_synchronisers, "synchroniser", "synchronisers"},
+    };
+    const char *separator = ": ";
+    fputs(d->file, out);
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        if (parts[i].n == 0)
+            continue;
+        fprintf(out, "%s%d %s", separator, parts[i].n,
+                parts[i].n == 1 ? parts[i].one : parts[i].many);
+        separator = ", ";
+    }
+    fputc('\n', out);
+}
+
+static int is_given(const char *text)
+{
+    return text && *text != '\0';
+}
+
+static void print_head(const gm_checked_gearset *checked, FILE *out)
+{
+    const gm_description *d = checked->description;
+    fprintf(out, "%s%s%s\n", d->name, is_given(d->title) ? ": " : "",
+            is_given(d->title) ? d->title : "");
+    print_counts(d, out);
+    if (is_given(d->oil.name))
+        fprintf(out, "oil %s at %.1f °C\n", d->oil.name,
+                checked->oil_temperature - KELVIN);
+    else
+        fprintf(out, "oil at %.1f °C\n", checked->oil_temperature - KELVIN);
+}
+
 void gm_checked_gearset_print(const gm_checked_gearset *checked, FILE *out)
 {
     const gm_description *d = checked->description;
-    fprintf(out, "%s: %s\n", d->name, d->title ? d->title : "");
-    fprintf(
-        out,
-        "%s: %d shafts, %d gears, %d meshes, %d bearings, %d seals, %d synchronisers\n",
-        d->file, d->n_shafts, d->n_wheels, d->n_meshes, d->n_bearings, d->n_seals,
-        d->n_synchronisers);
-    fprintf(out, "oil %s at %.1f °C\n", d->oil.name, checked->oil_temperature - KELVIN);
+    print_head(checked, out);
     print_shafts(d, out);
     fprintf(out, "\ngears   no.      ratio     given   J [kg·m²]  power flow\n");
     for (int i = 0; i < checked->n_gears; i++)

@@ -33,6 +33,22 @@ static int path_of(const gm_description *d, int number)
     return -1;
 }
 
+/* A gear can wait only on the path that does not drive. */
+static gm_status check_preselected(const gm_description *d, int p,
+                                   const gm_point_request *r, gm_error *error)
+{
+    if (r->preselected == 0 ||
+        (d->n_paths > 1 && has_gear(&d->paths[1 - p], r->preselected)))
+        return GM_OK;
+    if (path_of(d, r->preselected) < 0)
+        return gm_fail(error, GM_ERR_MODEL, "%s: there is no gear %d to preselect",
+                       d->file, r->preselected);
+    return gm_fail(error, GM_ERR_MODEL,
+                   "%s: gear %d cannot be preselected while gear %d drives: both are on "
+                   "path %s",
+                   d->file, r->preselected, r->gear, d->paths[p].id.name);
+}
+
 /* Gears, speeds and torques of the point; *path receives the loaded path. */
 static gm_status set_up(const gm_gearset_file *file, const gm_point_request *r,
                         gm_steady_point *point, int *path, gm_error *error)
@@ -41,17 +57,15 @@ static gm_status set_up(const gm_gearset_file *file, const gm_point_request *r,
     int p = path_of(d, r->gear), other = 1 - p;
     if (p < 0)
         return gm_fail(error, GM_ERR_MODEL, "%s: there is no gear %d", d->file, r->gear);
-    if (r->preselected != 0 &&
-        (d->n_paths < 2 || !has_gear(&d->paths[other], r->preselected)))
-        return gm_fail(error, GM_ERR_MODEL,
-                       "%s: gear %d cannot be preselected while gear %d drives", d->file,
-                       r->preselected, r->gear);
+    gm_status status = check_preselected(d, p, r, error);
+    if (status != GM_OK)
+        return status;
     memset(point, 0, sizeof *point);
     point->gear[p] = r->gear;
     if (d->n_paths > 1)
         point->gear[other] = r->preselected;
     gm_kinematics k;
-    gm_status status = gm_gearset_kinematics(file->gearset, point->gear, &k, error);
+    status = gm_gearset_kinematics(file->gearset, point->gear, &k, error);
     if (status != GM_OK)
         return status;
     point->speed[0] = r->speed / k.ratio[p];
@@ -96,6 +110,25 @@ static gm_status read_losses(const gm_gearset_file *file, const gm_steady_point 
     return status;
 }
 
+/* Gear of path p, in neutral, whose parts turn with it at speed w of its input; 0: none.
+ * Friction holds the path exactly there; 1e-9 is rounding. */
+static gm_status find_gear_in_step(const gm_gearset_file *file, int p, double w,
+                                   double output_speed, int *number, gm_error *error)
+{
+    const gm_path_part *path = &file->description->paths[p];
+    gm_status status = GM_OK;
+    *number = 0;
+    for (int g = 0; g < path->n_gears && status == GM_OK; g++) {
+        int gears[GM_MAX_INPUT_PATHS] = {0};
+        gm_kinematics k;
+        gears[p] = path->gears[g].number;
+        status = gm_gearset_kinematics(file->gearset, gears, &k, error);
+        if (status == GM_OK && fabs(k.ratio[p] * output_speed - w) <= 1e-9 * fabs(w))
+            *number = gears[p];
+    }
+    return status;
+}
+
 static gm_status solve(const gm_gearset_file *file, int p, gm_steady_point *point,
                        gm_checked_point *checked, gm_error *error)
 {
@@ -122,6 +155,13 @@ static gm_status solve(const gm_gearset_file *file, int p, gm_steady_point *poin
         checked->output_speed = result.speed[0];
         checked->output_torque = result.torque[0];
         status = read_losses(file, point, x, checked, error);
+    }
+    if (status == GM_OK && checked->other_sticks)
+        status = find_gear_in_step(file, other, checked->other_speed,
+                                   checked->output_speed, &checked->other_gear, error);
+    if (status != GM_OK) {
+        gm_free(checked->elements);
+        checked->elements = NULL;
     }
     gm_steady_solver_destroy(solver);
     return status;
@@ -166,6 +206,21 @@ static double efficiency(const gm_checked_point *c)
     return eta > 0.0 && eta < 1.0 ? eta : (double)NAN;
 }
 
+static void print_free_path(const gm_checked_point *c, FILE *out)
+{
+    double rpm = c->other_speed * RPM_PER_RAD_S;
+    fprintf(out, "%s in neutral, ", c->other);
+    if (!c->other_sticks)
+        fprintf(out, "turning freely at %.0f rpm\n", rpm);
+    else if (fabs(rpm) < 0.5)
+        fputs("held at rest by friction\n", out);
+    else if (c->other_gear != 0)
+        fprintf(out, "held by friction in step with gear %d at %.0f rpm\n", c->other_gear,
+                rpm);
+    else
+        fprintf(out, "held by friction at %.0f rpm\n", rpm);
+}
+
 static void print_head(const gm_checked_point *c, FILE *out)
 {
     const gm_point_request *r = &c->request;
@@ -175,9 +230,7 @@ static void print_head(const gm_checked_point *c, FILE *out)
         fprintf(out, "gear %d preselected (%s at %.0f rpm)\n", r->preselected, c->other,
                 c->other_speed * RPM_PER_RAD_S);
     else if (c->other)
-        fprintf(out, "%s in neutral, %s %.0f rpm\n", c->other,
-                c->other_sticks ? "held by friction at" : "turning freely at",
-                c->other_speed * RPM_PER_RAD_S);
+        print_free_path(c, out);
     fprintf(out, "output %.1f rpm, %.2f N·m; loss %.1f W = %.4f N·m at the input",
             c->output_speed * RPM_PER_RAD_S, -c->output_torque, c->loss,
             c->loss / fabs(r->speed));

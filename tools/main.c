@@ -118,6 +118,10 @@ static int help(int argc, char **argv)
         print_overview(stdout);
         return GM_EXIT_DONE;
     }
+    if (argc > 1) {
+        fprintf(stderr, "gearmap: help has no use for the argument '%s'\n", argv[1]);
+        return GM_EXIT_USAGE;
+    }
     if (strcmp(argv[0], "format") == 0) {
         gm_description_help(write_text, stdout);
         return GM_EXIT_DONE;

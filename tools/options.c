@@ -53,8 +53,9 @@ static const char *spelled(const gm_option *o, char text[64])
 static gm_status out_of_range(const parser *p, const gm_option *o, const char *text)
 {
     const char *name = o->unit ? o->unit : "";
-    return gm_fail(p->error, GM_ERR_ARGUMENT, "--%s %s is not between %g%s and %g%s",
-                   o->name, text, o->low, name, o->high, name);
+    return gm_fail(p->error, GM_ERR_ARGUMENT,
+                   "--%s %s is not between %.10g%s and %.10g%s", o->name, text, o->low,
+                   name, o->high, name);
 }
 
 static gm_status read_integer(const parser *p, const gm_option *o, const char *text)
@@ -254,6 +255,24 @@ static bool asks_for_help(const char *argument)
     return strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0;
 }
 
+/* Asked for anywhere, but not as the value of an option nor after "--". */
+static bool wants_help(const gm_command *command, int argc, char **argv)
+{
+    for (int i = 0; i < argc && strcmp(argv[i], "--") != 0; i++) {
+        const char *name = argv[i];
+        int index = -1;
+        if (asks_for_help(name))
+            return true;
+        if (name[0] == '-' && name[1] == '-')
+            index = find_long(command, name + 2, strlen(name + 2));
+        else if (name[0] == '-' && name[1] != '\0' && name[2] == '\0')
+            index = find_letter(command, name[1]);
+        if (index >= 0 && command->options[index].kind != GM_OPTION_FLAG)
+            i++;
+    }
+    return false;
+}
+
 gm_parse_outcome gm_options_parse(const gm_command *command, int argc, char **argv,
                                   void *arguments, gm_error *error)
 {
@@ -261,9 +280,8 @@ gm_parse_outcome gm_options_parse(const gm_command *command, int argc, char **ar
     bool operands_only = false;
     if (command->n_options > MAX_OPTIONS || set_defaults(&p) != GM_OK)
         return GM_PARSE_WRONG;
-    for (int i = 0; i < argc; i++)
-        if (asks_for_help(argv[i]))
-            return GM_PARSE_HELP;
+    if (wants_help(command, argc, argv))
+        return GM_PARSE_HELP;
     for (int i = 0; i < argc; i++) {
         gm_status status = GM_OK;
         if (!operands_only && strcmp(argv[i], "--") == 0)

@@ -38,6 +38,30 @@ static gm_status interrupted(const char *path, gm_error *error)
         "interrupted; %s.part keeps the finished points, the same command resumes", path);
 }
 
+/* A step beyond the maximum would leave nothing between the ends of the axis. */
+static gm_status check_step(const char *option, double step, double max, double unit,
+                            const char *name, gm_error *error)
+{
+    if (!(step > max * (1.0 + 1e-9)))
+        return GM_OK;
+    return gm_fail(error, GM_ERR_ARGUMENT,
+                   "--%s %.6g %s is more than the maximum, %.6g %s", option, step / unit,
+                   name, max / unit, name);
+}
+
+static gm_status check_steps(const gm_plant *plant, const gm_sweep_settings *s,
+                             gm_error *error)
+{
+    const double rpm = 0.10471975511965977; /* rad/s */
+    double speed_max = isnan(s->speed_max) ? plant->info.speed_max : s->speed_max;
+    double torque_max = isnan(s->torque_max) ? plant->info.torque_max : s->torque_max;
+    gm_status status =
+        check_step("speed-step", s->speed_step, speed_max, rpm, "rpm", error);
+    if (status == GM_OK)
+        status = check_step("torque-step", s->torque_step, torque_max, 1.0, "Nm", error);
+    return status;
+}
+
 gm_status gm_stage_sweep(const gm_gearset_file *file, const gm_sweep_settings *settings,
                          const char *path, gm_sweep_stage *stage, gm_error *error)
 {
@@ -50,9 +74,12 @@ gm_status gm_stage_sweep(const gm_gearset_file *file, const gm_sweep_settings *s
     };
     gm_progress progress;
     memset(stage, 0, sizeof *stage);
+    gm_status status = check_steps(file->plant, settings, error);
+    if (status != GM_OK)
+        return status;
     gm_progress_begin(&progress);
-    gm_status status = gm_sweep_run(file->plant, &options, path, gm_progress_report,
-                                    &progress, &stage->map, &stage->summary, error);
+    status = gm_sweep_run(file->plant, &options, path, gm_progress_report, &progress,
+                          &stage->map, &stage->summary, error);
     gm_progress_end(&progress);
     stage->path = path;
     return status == GM_ERR_INTERRUPTED ? interrupted(path, error) : status;

@@ -37,46 +37,44 @@ static bool find_program(const char *name, char *path, size_t size)
     return false;
 }
 
-/* $CC may carry arguments: "ccache gcc -m64". */
-static bool use_environment(const char *cc, gm_compiler *compiler, gm_error *error)
+/* Text such as "ccache gcc -m64": a program and, after spaces, its arguments. */
+static bool use_text(const char *text, gm_compiler *compiler)
 {
     char name[512];
-    size_t skip = strspn(cc, " "), n = strcspn(cc + skip, " ");
-    if (snprintf(name, sizeof name, "%.*s", (int)n, cc + skip) >= (int)sizeof name ||
-        snprintf(compiler->arguments, sizeof compiler->arguments, "%s", cc + skip + n) >=
-            (int)sizeof compiler->arguments ||
-        !find_program(name, compiler->path, sizeof compiler->path)) {
-        (void)gm_fail(
-            error, GM_ERR_TOOL,
-            "the C compiler %s, named by the environment variable CC, is not an "
-            "executable program",
-            cc);
-        return false;
-    }
-    return true;
+    size_t skip = strspn(text, " "), n = strcspn(text + skip, " ");
+    return snprintf(name, sizeof name, "%.*s", (int)n, text + skip) < (int)sizeof name &&
+           snprintf(compiler->arguments, sizeof compiler->arguments, "%s",
+                    text + skip + n) < (int)sizeof compiler->arguments &&
+           find_program(name, compiler->path, sizeof compiler->path);
+}
+
+static bool find_usual(gm_compiler *compiler)
+{
+    static const char *const usual[] = {"cc", "gcc", "clang"};
+    for (int i = 0; i < 3; i++)
+        if (find_program(usual[i], compiler->path, sizeof compiler->path))
+            return true;
+    return false;
 }
 
 gm_status gm_compiler_find(const char *wanted, gm_compiler *compiler, gm_error *error)
 {
-    static const char *const usual[] = {"cc", "gcc", "clang"};
     gm_compiler found = {.arguments = ""};
     const char *cc = getenv("CC");
     if (wanted) {
-        if (!find_program(wanted, found.path, sizeof found.path))
+        if (!use_text(wanted, &found))
             return gm_fail(error, GM_ERR_TOOL,
                            "the C compiler %s is not an executable program", wanted);
     } else if (cc && cc[strspn(cc, " ")]) {
-        if (!use_environment(cc, &found, error))
-            return GM_ERR_TOOL;
-    } else {
-        int i = 0;
-        while (i < 3 && !find_program(usual[i], found.path, sizeof found.path))
-            i++;
-        if (i == 3)
-            return gm_fail(
-                error, GM_ERR_TOOL,
-                "a C compiler is needed to build the FMU's library, and none of "
-                "cc, gcc, clang is in the path; install one or name it with CC");
+        if (!use_text(cc, &found))
+            return gm_fail(error, GM_ERR_TOOL,
+                           "the C compiler %s, named by the environment variable CC, is "
+                           "not an executable program",
+                           cc);
+    } else if (!find_usual(&found)) {
+        return gm_fail(error, GM_ERR_TOOL,
+                       "a C compiler is needed to build the FMU's library, and none of "
+                       "cc, gcc, clang is in the path; install one or name it with CC");
     }
     *compiler = found;
     return GM_OK;

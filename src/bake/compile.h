@@ -10,11 +10,13 @@
 
 typedef struct gm_compiler {
     char path[512];      /* program that will be started */
-    char arguments[512]; /* further arguments from $CC, separated by spaces */
+    char arguments[512]; /* given after it, separated by spaces */
 } gm_compiler;
 
-/** Find the compiler: `wanted` when it is not NULL, else $CC, else cc, gcc, clang.
- *  GM_ERR_TOOL with the names that were tried. */
+/** Find the compiler: `wanted` when it is not NULL, else $CC, else cc, gcc, clang. The
+ * two texts are split at spaces: the first word names the program, the others precede
+ * what the component needs (-O3 wins over another level). GM_ERR_TOOL with the names that
+ * were tried. */
 GM_NODISCARD gm_status gm_compiler_find(const char *wanted, gm_compiler *compiler,
                                         gm_error *error);
 

@@ -160,6 +160,20 @@ static void arguments_of_the_environments_compiler_are_used(void **state)
     unsetenv("CC");
 }
 
+static void arguments_of_the_given_compiler_are_used(void **state)
+{
+    place *at = *state;
+    gm_bake_options options = usual;
+    gm_error error;
+    options.compiler = " cc -g0 ";
+    assert_int_equal(gm_bake_fmu2(at->map, &options, at->target, NULL, &error), GM_OK);
+    entries(at, 1);
+    options.compiler = "cc --no-such-option";
+    assert_fails(at, &options, GM_ERR_TOOL, "no-such-option");
+    options.compiler = " ";
+    assert_fails(at, &options, GM_ERR_TOOL, "not an executable program");
+}
+
 static void missing_sources_are_named(void **state)
 {
     gm_bake_options options = {.share = "/nowhere/share"};
@@ -247,6 +261,7 @@ int main(void)
         IN_PLACE(without_any_compiler_the_tried_names_are_told),
         IN_PLACE(a_failing_compiler_is_quoted),
         IN_PLACE(arguments_of_the_environments_compiler_are_used),
+        IN_PLACE(arguments_of_the_given_compiler_are_used),
         IN_PLACE(missing_sources_are_named),
         IN_PLACE(an_unwritable_target_is_refused_before_the_work),
         IN_PLACE(names_that_are_no_words_are_refused),

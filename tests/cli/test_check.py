@@ -112,7 +112,21 @@ def test_a_gear_that_does_not_exist():
 def test_a_gear_that_cannot_be_preselected():
     assert fails("check", EXAMPLE, "--gear", "3", "--speed", "100", "--torque", "1",
                  "--preselect", "5") == \
-        f"{EXAMPLE}: gear 5 cannot be preselected while gear 3 drives"
+        f"{EXAMPLE}: gear 5 cannot be preselected while gear 3 drives: both are on path odd"
+    assert fails("check", EXAMPLE, "--gear", "3", "--speed", "100", "--torque", "1",
+                 "--preselect", "9") == f"{EXAMPLE}: there is no gear 9 to preselect"
+
+
+def test_what_is_not_there_is_not_listed():
+    head = succeeds("check", EXAMPLE.parents[1] / "tests" / "cli" / "two_speed.yaml").stdout
+    assert ", 1 synchroniser\n" in head and "seal" not in head
+
+
+def test_a_shaft_that_friction_holds():
+    """In third gear at 2000 rpm the even shafts of the example stand still."""
+    text = succeeds("check", EXAMPLE, "--gear", "3", "--speed", "2000", "--torque", "100").stdout
+    assert re.search("^even in neutral, (held|turning) ", text, re.M)
+    assert "held by friction at 0 rpm" not in text
 
 
 # Damage done to the example: (name, pattern, replacement, words the sentence must hold).

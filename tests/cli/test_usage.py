@@ -98,6 +98,9 @@ def test_quantities_name_their_unit():
      "--threads needs a whole number, not 'two'"),
     (["sweep", "a.yaml", "-o", "m", "--threads", "0"],
      "--threads 0 is not between 1 and 1024"),
+    (["verify", "a.yaml", "f.fmu", "--steady", "--points", "100000000"],
+     "--points 100000000 is not between 1 and 10000000"),
+    (["help", "check", "extra"], "help has no use for the argument 'extra'"),
     (["bake", "m", "-o", "f", "--format", "elf"], "bake knows no format 'elf' (only fmu2)"),
     (["verify", "a.yaml", "f.fmu"],
      "verify needs --steady: compare steady losses at random points off the grid"),
@@ -117,6 +120,19 @@ def test_wrong_usage(arguments, sentence, tmp_path):
 
 def test_help_wins_over_wrong_arguments():
     assert succeeds("sweep", "--nonsense", "--help").stdout.startswith("usage:")
+
+
+def test_help_is_not_taken_from_a_value(tmp_path):
+    for arguments in (["-o", "-h"], ["--output", "--help"]):
+        assert "none.yaml" in fails("sweep", "none.yaml", *arguments, cwd=tmp_path)
+
+
+@pytest.mark.parametrize("option, value, sentence", [
+    ("--speed-step", "7000", "--speed-step 7000 rpm is more than the maximum, 6500 rpm"),
+    ("--torque-step", "300", "--torque-step 300 Nm is more than the maximum, 250 Nm")])
+def test_a_step_beyond_the_axis(option, value, sentence, tmp_path):
+    assert fails("sweep", EXAMPLE, "-o", tmp_path / "a.map", option, value) == sentence
+    assert list(tmp_path.iterdir()) == []
 
 
 def test_units_are_read_in_every_spelling():
