@@ -25,8 +25,8 @@ const gm_plant *gm_steady_solver_plant(const gm_steady_solver *solver);
 /** Forget the last solution, so that a grid line's results depend on the line alone. */
 void gm_steady_solver_restart(gm_steady_solver *solver);
 
-/** Solve one point: no balance of torques is open by more than 1e-12 of the largest flange
- *  torque (1e-11 where rounding leaves more). GM_ERR_SOLVE with the point in the
+/** Solve one point: no balance of torques is open by more than 1e-12 of the largest
+ *  flange torque (1e-11 where rounding leaves more). GM_ERR_SOLVE with the point in the
  *  sentence when it does not converge. */
 GM_NODISCARD gm_status gm_steady_solve(gm_steady_solver *solver,
                                        const gm_steady_point *point,
