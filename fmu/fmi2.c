@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
  * FMI 2.0 Co-Simulation: life of an instance and its steps. Calls are checked against the
- * state machine of FMI 2.0.3, section 4.2.4. Memory is taken once, in fmi2Instantiate;
- * after that no call allocates or enters the system. Nothing is shared by instances, so
+ * state machine of FMI 2.0.3, section 4.2.4. Memory is taken once, in fmi2Instantiate,
+ * and for states that the host asks to keep (fmi2_saved.c); no other call allocates or
+ * enters the system. Nothing is shared by instances, so
  * different ones may run in different threads.
  */
 #include "fmi2_instance.h"

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * An FMI 2.0 instance: the run, which could be saved and restored, and what belongs to
+ * An FMI 2.0 instance: the run, which can be saved and restored, and what belongs to
  * the host. Messages and the check of the call order are here, for all fmi2*.c.
  *
  * After fmi2Error an instance is in the phase "error": values may still be read, and
- * fmi2Reset or fmi2FreeInstance are the ways out (FMI 2.0.3, sections 2.1.3 and 4.2.4).
+ * fmi2SetFMUstate, fmi2Reset or fmi2FreeInstance are the ways out (FMI 2.0.3,
+ * sections 2.1.3 and 4.2.4).
  */
 #ifndef FMI2_INSTANCE_H
 #define FMI2_INSTANCE_H

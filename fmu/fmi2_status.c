@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * FMI 2.0: questions about the last step, and the optional functions that
- * modelDescription.xml does not offer (FMI 2.0.3, sections 2.1.8 to 2.1.9 and 4.2.3).
- * They have to exist and answer fmi2Error.
+ * FMI 2.0: questions about the last step, and the optional function that
+ * modelDescription.xml does not offer (FMI 2.0.3, sections 2.1.9 and 4.2.3). It has to
+ * exist and answers fmi2Error.
  */
 #include "fmi2_instance.h"
 
@@ -63,57 +63,6 @@ fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind s, fmi2Stri
     return f ? not_available(f, "fmi2GetStringStatus", (int)s) : fmi2Error;
 }
 
-static fmi2Status not_offered(fmi2Component c, const char *function)
-{
-    fmi2_instance *f = fmi2_enter(c, function, FMI2_PHASES_ANY);
-    return f ? fmi2_fail(f, function, "this FMU does not have the capability")
-             : fmi2Error;
-}
-
-fmi2Status fmi2GetFMUstate(fmi2Component c, fmi2FMUstate *FMUstate)
-{
-    (void)FMUstate;
-    return not_offered(c, "fmi2GetFMUstate");
-}
-
-fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate FMUstate)
-{
-    (void)FMUstate;
-    return not_offered(c, "fmi2SetFMUstate");
-}
-
-fmi2Status fmi2FreeFMUstate(fmi2Component c, fmi2FMUstate *FMUstate)
-{
-    (void)FMUstate;
-    return not_offered(c, "fmi2FreeFMUstate");
-}
-
-fmi2Status fmi2SerializedFMUstateSize(fmi2Component c, fmi2FMUstate FMUstate,
-                                      size_t *size)
-{
-    (void)FMUstate;
-    (void)size;
-    return not_offered(c, "fmi2SerializedFMUstateSize");
-}
-
-fmi2Status fmi2SerializeFMUstate(fmi2Component c, fmi2FMUstate FMUstate,
-                                 fmi2Byte serializedState[], size_t size)
-{
-    (void)FMUstate;
-    (void)serializedState;
-    (void)size;
-    return not_offered(c, "fmi2SerializeFMUstate");
-}
-
-fmi2Status fmi2DeSerializeFMUstate(fmi2Component c, const fmi2Byte serializedState[],
-                                   size_t size, fmi2FMUstate *FMUstate)
-{
-    (void)serializedState;
-    (void)size;
-    (void)FMUstate;
-    return not_offered(c, "fmi2DeSerializeFMUstate");
-}
-
 fmi2Status fmi2GetDirectionalDerivative(fmi2Component c,
                                         const fmi2ValueReference vUnknown_ref[],
                                         size_t nUnknown,
@@ -121,11 +70,14 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c,
                                         size_t nKnown, const fmi2Real dvKnown[],
                                         fmi2Real dvUnknown[])
 {
+    static const char function[] = "fmi2GetDirectionalDerivative";
     (void)vUnknown_ref;
     (void)nUnknown;
     (void)vKnown_ref;
     (void)nKnown;
     (void)dvKnown;
     (void)dvUnknown;
-    return not_offered(c, "fmi2GetDirectionalDerivative");
+    fmi2_instance *f = fmi2_enter(c, function, FMI2_PHASES_ANY);
+    return f ? fmi2_fail(f, function, "this FMU does not have the capability")
+             : fmi2Error;
 }

@@ -2,7 +2,8 @@
  *
  * One run of the component: the phase of its life, its clock, and what may be done when.
  * The phases are those of FMI 2.0 and 3.0 Co-Simulation. A plain struct without pointers;
- * how verdicts become status codes and messages is the matter of the FMI version.
+ * a new member belongs into gm_saved.h too. How verdicts become status codes and messages
+ * is the matter of the FMI version.
  */
 #ifndef GM_RUN_H
 #define GM_RUN_H
