@@ -135,8 +135,8 @@ static void write_co_simulation(xml *x, const gm_description_options *options)
     text(x, "canRunAsynchronuously", "false"); /* spelled so by the standard */
     text(x, "canBeInstantiatedOnlyOncePerProcess", "false");
     text(x, "canNotUseMemoryManagementFunctions", "false");
-    text(x, "canGetAndSetFMUstate", "false");
-    text(x, "canSerializeFMUstate", "false");
+    text(x, "canGetAndSetFMUstate", "true");
+    text(x, "canSerializeFMUstate", "true");
     text(x, "providesDirectionalDerivative", "false");
     start(x, "SourceFiles");
     for (int i = 0; i < options->n_sources; i++) {
