@@ -246,6 +246,27 @@ double gm_gearset_sync_torque(const gm_gearset *gearset, int p)
     return smallest;
 }
 
+int gm_gearset_kink_torques(const gm_gearset *gearset, int p, int number, int n_max,
+                            double *torque)
+{
+    int gear[GM_MAX_INPUT_PATHS] = {0};
+    gm_configuration_rows rows;
+    gear[p] = number;
+    if (gm_configuration_rows_make(gearset, gear, &rows, NULL) != GM_OK)
+        return 0;
+    int count = 0, n = rows.n_bodies, input = gm_flange_body(gearset, 1 + p);
+    for (int m = 0; m < gearset->n_meshes && count < n_max; m++) {
+        const gm_mesh_law *law = &gearset->meshes[m].law;
+        double force =
+            fabs(rows.inverse[m * n + input]); /* N for 1 N.m, without losses */
+        if (law->model == GM_MESH_ISO14179_2 && law->minimum_force > 0.0 && force > 1e-6)
+            torque[count++] = law->minimum_force / force;
+    }
+    gm_configuration_rows_clear(&rows);
+    sort_ascending(count, torque);
+    return count;
+}
+
 int gm_gearset_kink_speeds(const gm_gearset *gearset, int p, int number, int n_max,
                            double *speed)
 {

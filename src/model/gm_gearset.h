@@ -53,6 +53,12 @@ double gm_gearset_sync_torque(const gm_gearset *gearset, int p);
 int gm_gearset_kink_speeds(const gm_gearset *gearset, int p, int number, int n_max,
                            double *speed);
 
+/** Torques at path p in gear `number` [N.m, > 0, ascending, at most n_max] at which the
+ *  line load of a mesh reaches the least that its friction coefficient knows: kinks of the
+ *  loss. Returns their number. */
+int gm_gearset_kink_torques(const gm_gearset *gearset, int p, int number, int n_max,
+                            double *torque);
+
 /** Ratios w_path / w_output of path p in neutral at which a bearing between a part that
  *  turns with the path and one that turns with the output does not turn: where the drag
  * on the path jumps. Ascending, each once, at most n_max. Returns their number. */

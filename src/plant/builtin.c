@@ -18,6 +18,11 @@ static int kink_speeds(const void *self, int p, int number, int n_max, double *s
     return gm_gearset_kink_speeds(self, p, number, n_max, speed);
 }
 
+static int kink_torques(const void *self, int p, int number, int n_max, double *torque)
+{
+    return gm_gearset_kink_torques(self, p, number, n_max, torque);
+}
+
 static int drag_lines(const void *self, int p, int n_max, double *ratio)
 {
     return gm_gearset_drag_lines(self, p, n_max, ratio);
@@ -80,6 +85,7 @@ static void result(const void *work, const double *x, gm_steady_result *r)
 static const gm_plant_class builtin_class = {
     .kinematics = kinematics,
     .kink_speeds = kink_speeds,
+    .kink_torques = kink_torques,
     .drag_lines = drag_lines,
     .work_create = work_create,
     .work_destroy = work_destroy,

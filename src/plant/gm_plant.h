@@ -49,6 +49,8 @@ typedef struct gm_plant_class {
     /* Speeds at path p (rad/s, > 0) in gear `number` where the loss has a kink; returns
        how many of at most n_max were written, ascending. */
     int (*kink_speeds)(const void *self, int p, int number, int n_max, double *speed);
+    /* The same for torques at path p (N.m, > 0). */
+    int (*kink_torques)(const void *self, int p, int number, int n_max, double *torque);
     /* Ratios w_path / w_output of path p in neutral at which its drag jumps: parts of the
        path turn in step with parts of the output. At most n_max, ascending. */
     int (*drag_lines)(const void *self, int p, int n_max, double *ratio);

@@ -147,9 +147,10 @@ static gm_status speed_axis(builder *b, int p, int number, gm_nodes *nodes)
     return GM_OK;
 }
 
-static gm_status torque_axis(builder *b, gm_nodes *nodes)
+/* Torques of a path in a gear, both signs. */
+static gm_status torque_axis(builder *b, int p, int number, gm_nodes *nodes)
 {
-    double max = b->map->torque_max;
+    double max = b->map->torque_max, kinks[MAX_KINKS];
     if (b->options->torque_step > 0) {
         gm_status status =
             gm_nodes_uniform(max, b->options->torque_step, "torque", nodes, b->error);
@@ -158,6 +159,9 @@ static gm_status torque_axis(builder *b, gm_nodes *nodes)
     } else {
         gm_nodes_power(TORQUE_NODES, max, TORQUE_POWER, nodes);
         gm_nodes_include(TORQUE_FLANK * max, TORQUE_NODES + 1, nodes);
+        int n = b->plant->is->kink_torques(b->plant->self, p, number, MAX_KINKS, kinks);
+        for (int k = 0; k < n; k++)
+            gm_nodes_include(kinks[k], TORQUE_NODES + 1, nodes);
     }
     gm_nodes_mirror(nodes);
     return GM_OK;
@@ -275,7 +279,7 @@ static gm_status plan_load(builder *b, int p, const gm_map_gear *of, int directi
     gm_job job = {GM_JOB_LOAD, 2, 0, 0, 0, 0};
     gm_status status = speed_axis(b, p, of->number, &b->axis[0]);
     if (status == GM_OK)
-        status = torque_axis(b, &b->axis[1]);
+        status = torque_axis(b, p, of->number, &b->axis[1]);
     if (status == GM_OK)
         status = add_table(b, &load, 2, &job.table);
     job.points = b->axis[1].n;

@@ -295,6 +295,15 @@ static gm_status kinematics(const void *self, const int *gear, gm_kinematics *k,
     return GM_OK;
 }
 
+static int kink_torques(const void *self, int p, int number, int n_max, double *torque)
+{
+    (void)self;
+    if (n_max < 1)
+        return 0;
+    torque[0] = 7.0 + p + 0.5 * number;
+    return 1;
+}
+
 static int drag_lines(const void *self, int p, int n_max, double *ratio)
 {
     (void)self;
@@ -314,8 +323,9 @@ static int kink_speeds(const void *self, int p, int number, int n_max, double *s
 }
 
 static const gm_plant_class synthetic_class = {
-    kinematics, kink_speeds, drag_lines, work_create, work_destroy, set_point, size,
-    entries,    pass,        residual,   pattern,     jacobian,     result,
+    kinematics,   kink_speeds, kink_torques, drag_lines, work_create,
+    work_destroy, set_point,   size,         entries,    pass,
+    residual,     pattern,     jacobian,     result,
 };
 
 void synthetic_init(synthetic *s, int n_paths)

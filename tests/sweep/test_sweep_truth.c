@@ -304,6 +304,11 @@ static void axes_stay_within_the_promised_size_and_hold_the_kinks(void **state)
         for (int i = 0; i < t->n[0]; i++)
             found += t->x[0][i] == kink;
         assert_int_equal(found, 1);
+        found = 0;
+        two.source.plant.is->kink_torques(&two.source, p, t->key.gear[p], 1, &kink);
+        for (int i = 0; i < t->n[1]; i++)
+            found += fabs(t->x[1][i]) == kink;
+        assert_int_equal(found, 2); /* of both signs */
     }
 }
 
