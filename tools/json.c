@@ -4,36 +4,18 @@
  */
 #include "json.h"
 
+#include "base/text.h"
+
 #include <assert.h>
 #include <math.h>
 #include <string.h>
-
-/* Length of the UTF-8 character at s (RFC 3629), 0 when it is none. */
-static int utf8_length(const unsigned char *s)
-{
-    static const unsigned char low[] = {0xC2, 0xE0, 0xF0}, high[] = {0xDF, 0xEF, 0xF4};
-    if (s[0] < 0x80)
-        return 1;
-    for (int extra = 1; extra <= 3; extra++) {
-        if (s[0] < low[extra - 1] || s[0] > high[extra - 1])
-            continue;
-        for (int i = 1; i <= extra; i++)
-            if ((s[i] & 0xC0u) != 0x80u)
-                return 0;
-        bool overlong = (s[0] == 0xE0 && s[1] < 0xA0) || (s[0] == 0xF0 && s[1] < 0x90);
-        bool surrogate = s[0] == 0xED && s[1] > 0x9F;
-        bool too_large = s[0] == 0xF4 && s[1] > 0x8F;
-        return overlong || surrogate || too_large ? 0 : extra + 1;
-    }
-    return 0;
-}
 
 static void put_string(FILE *out, const char *text)
 {
     const unsigned char *s = (const unsigned char *)text;
     fputc('"', out);
     while (*s != '\0') {
-        int n = utf8_length(s);
+        size_t n = gm_text_utf8_length((const char *)s, 4); /* stops at the end */
         if (*s == '"' || *s == '\\')
             fprintf(out, "\\%c", *s);
         else if (*s < 0x20)
@@ -41,7 +23,7 @@ static void put_string(FILE *out, const char *text)
         else if (n == 0)
             fputs("\\ufffd", out);
         else
-            fwrite(s, 1, (size_t)n, out);
+            fwrite(s, 1, n, out);
         s += n > 0 ? n : 1;
     }
     fputc('"', out);

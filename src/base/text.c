@@ -86,6 +86,32 @@ bool gm_text_to_quantity(const char *text, const char *unit, double *value)
     return fits && convert(text, length, value);
 }
 
+static bool is_continued(const unsigned char *s, int extra)
+{
+    for (int i = 1; i <= extra; i++)
+        if ((s[i] & 0xC0u) != 0x80u)
+            return false;
+    return true;
+}
+
+size_t gm_text_utf8_length(const char *text, size_t left)
+{
+    static const unsigned char low[] = {0xC2, 0xE0, 0xF0}, high[] = {0xDF, 0xEF, 0xF4};
+    const unsigned char *s = (const unsigned char *)text;
+    if (left > 0 && s[0] < 0x80)
+        return 1;
+    for (int extra = 1; extra <= 3 && (size_t)extra < left; extra++) {
+        if (s[0] < low[extra - 1] || s[0] > high[extra - 1])
+            continue;
+        bool overlong = (s[0] == 0xE0 && s[1] < 0xA0) || (s[0] == 0xF0 && s[1] < 0x90);
+        bool surrogate = s[0] == 0xED && s[1] > 0x9F;
+        bool too_large = s[0] == 0xF4 && s[1] > 0x8F;
+        bool wrong = overlong || surrogate || too_large || !is_continued(s, extra);
+        return wrong ? 0 : (size_t)extra + 1;
+    }
+    return 0;
+}
+
 static int min3(int a, int b, int c)
 {
     int m = a < b ? a : b;

@@ -20,6 +20,10 @@ bool gm_text_to_int(const char *text, int *value);
  *  or "150 rpm" for unit "rpm"). */
 bool gm_text_to_quantity(const char *text, const char *unit, double *value);
 
+/** Bytes of the UTF-8 character at s (RFC 3629: no overlong forms, no surrogates), of
+ *  which `left` bytes may be read; 0 when it is none. */
+size_t gm_text_utf8_length(const char *s, size_t left);
+
 /** Index of the candidate that is nearest to word by edit distance and near enough to be
  *  meant (at most a third of its length away), or -1. For "did you mean …?". */
 int gm_text_nearest(const char *word, const char *const *candidates, int n);

@@ -144,32 +144,32 @@ static int fill_patch(const gm_drive *d, int p, const place *q, gm_drag_patch *c
 {
     const gm_path *path = &d->map->path[p];
     static const gm_drag_patch empty = {0};
-    gm_drag_patch new = empty;
+    gm_drag_patch made = empty;
     gm_cell2 *n = &d->cache->drag[p][q->i][q->j], *r = &d->cache->reaction[p][q->i][q->j];
     gm_cell1 jump;
-    new.x_high = new.y_high = GM_UNBOUNDED;
-    if (!sort_lines(path, q, &new)) {
+    made.x_high = made.y_high = GM_UNBOUNDED;
+    if (!sort_lines(path, q, &made)) {
         return 0;
     }
     gm_cell2_at(&path->drag[q->i][q->j], 1, n, q->x, q->y);
     gm_cell2_at(&path->reaction[q->i][q->j], 1, r, q->x, q->y);
-    if (!narrow(n, q, &new) || !narrow(r, q, &new)) {
+    if (!narrow(n, q, &made) || !narrow(r, q, &made)) {
         return 0;
     }
     for (int i = 0; i < path->n_lines; i++) {
         line_jump(d, p, i, q, &jump);
-        if (!narrow_y(jump.x_low, jump.x_high, q->y, &new)) {
+        if (!narrow_y(jump.x_low, jump.x_high, q->y, &made)) {
             return 0;
         }
     }
-    new.drag = surface_of(n, &new);
-    new.reaction = surface_of(r, &new);
+    made.drag = surface_of(n, &made);
+    made.reaction = surface_of(r, &made);
     for (int i = 0; i < path->n_lines; i++) {
         line_jump(d, p, i, q, &jump);
-        add_line_to_patch(&jump, path->lines[i].ratio, q, &new);
+        add_line_to_patch(&jump, path->lines[i].ratio, q, &made);
     }
-    new.key = 1 + 2 * q->i + q->j;
-    *c = new;
+    made.key = 1 + 2 * q->i + q->j;
+    *c = made;
     return 1;
 }
 

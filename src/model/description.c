@@ -4,6 +4,7 @@
  */
 #include "base/alloc.h"
 #include "base/sha256.h"
+#include "base/text.h"
 #include "model/bearing.h"
 #include "model/check.h"
 #include "model/description_fields.h"
@@ -12,6 +13,7 @@
 #include <errno.h>
 #include <math.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -54,20 +56,10 @@ gm_status gm_part_fail(const gm_description *d, const char *word, const gm_label
 }
 
 /* Bytes of the UTF-8 character at s, 0 if it is none or a control character. */
-static size_t character_length(const unsigned char *s, size_t left)
+static size_t character_length(const char *s, size_t left)
 {
-    if (*s < 0x80)
-        return *s >= 0x20 ? *s != 0x7f : *s == '\t' || *s == '\n' || *s == '\r';
-    size_t n = *s >= 0xc2 && *s < 0xe0   ? 2
-               : *s >= 0xe0 && *s < 0xf0 ? 3
-               : *s >= 0xf0 && *s < 0xf5 ? 4
-                                         : 0;
-    if (n == 0 || n > left)
-        return 0;
-    for (size_t i = 1; i < n; i++)
-        if ((s[i] & 0xc0) != 0x80)
-            return 0;
-    return n;
+    bool control = ((unsigned char)*s < 0x20 || *s == 0x7f) && !strchr("\t\n\r", *s);
+    return control || *s == '\0' ? 0 : gm_text_utf8_length(s, left);
 }
 
 static gm_status check_text(const char *path, const char *bytes, size_t size,
@@ -75,7 +67,7 @@ static gm_status check_text(const char *path, const char *bytes, size_t size,
 {
     int line = 1;
     for (size_t i = 0; i < size;) {
-        size_t n = character_length((const unsigned char *)bytes + i, size - i);
+        size_t n = character_length(bytes + i, size - i);
         if (n == 0)
             return gm_description_fail(path, line, "", GM_ERR_FORMAT, error,
                                        "not a text file; found the byte 0x%02x, expected "

@@ -49,13 +49,13 @@ double gm_gearset_sync_torque(const gm_gearset *gearset, int p);
 
 /** Speeds of path p in gear `number` [rad/s, ascending, at most n_max] at which the
  * sliding speed of a loaded mesh leaves boundary friction: kinks of the loss. Returns
- * their number. */
+ *  their number. */
 int gm_gearset_kink_speeds(const gm_gearset *gearset, int p, int number, int n_max,
                            double *speed);
 
 /** Torques at path p in gear `number` [N.m, > 0, ascending, at most n_max] at which the
- *  line load of a mesh reaches the least that its friction coefficient knows: kinks of the
- *  loss. Returns their number. */
+ *  line load of a mesh reaches the least that its friction coefficient knows: kinks of
+ *  the loss. Returns their number. */
 int gm_gearset_kink_torques(const gm_gearset *gearset, int p, int number, int n_max,
                             double *torque);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * Two helpers of the friction laws: pi, and powers that a Newton solver can live with.
+ * Two functions that the friction laws share: pi, and powers that a Newton solver can
+ * live with.
  *
  * Many empirical laws contain x^p with 0 < p < 1, whose slope is infinite at x = 0. Below
  * a small x_0 the power is replaced by the parabola through the origin that meets it at

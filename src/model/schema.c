@@ -157,7 +157,7 @@ static const gm_field bearing_data_fields[] = {
              "ones with palmgren and without f1"},
     {NUMBER("axial_factor", 0, 10), ABOVE, AT(Y), OPTIONAL,
      ONLY("type", "tapered_roller"),
-     .help = "Y of the catalogue; needed but with friction none"},
+     .help = "Y of the catalogue; needed, except with friction none"},
     {NUMBER("f0", 0, 100), ABOVE, AT(f0), OPTIONAL, ONLY("friction", "palmgren"),
      .help = "factor of the part without load; default of the type"},
     {NUMBER("f1", 0, 1), ABOVE, AT(f1), OPTIONAL, ONLY("friction", "palmgren"),

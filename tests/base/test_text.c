@@ -85,6 +85,33 @@ static void nearest_word_is_found_only_when_near(void **state)
     assert_int_equal(gm_text_nearest(monster, words, 3), -1);
 }
 
+static void only_true_utf8_has_a_length(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *bytes;
+        size_t length;
+    } cases[] = {{"a", 1},
+                 {"\xc3\xa4", 2},
+                 {"\xe2\x82\xac", 3},
+                 {"\xf0\x9f\x98\x80", 4},
+                 {"\x80", 0},
+                 {"\xc0\x80", 0},         /* overlong */
+                 {"\xe0\x80\x80", 0},     /* overlong */
+                 {"\xed\xa0\x80", 0},     /* surrogate */
+                 {"\xf4\x90\x80\x80", 0}, /* beyond the last character */
+                 {"\xc3", 0},
+                 {"\xe2\x82", 0},
+                 {"\xc3(", 0}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        size_t size = strlen(cases[i].bytes);
+        assert_int_equal(gm_text_utf8_length(cases[i].bytes, size), cases[i].length);
+        assert_int_equal(gm_text_utf8_length(cases[i].bytes, size + 1), cases[i].length);
+    }
+    assert_int_equal(gm_text_utf8_length("\xe2\x82\xac", 2), 0);
+    assert_int_equal(gm_text_utf8_length("", 0), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -93,6 +120,7 @@ int main(void)
         cmocka_unit_test(accepts_integers_within_int),
         cmocka_unit_test(quantity_takes_its_own_unit_only),
         cmocka_unit_test(nearest_word_is_found_only_when_near),
+        cmocka_unit_test(only_true_utf8_has_a_length),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
