@@ -33,6 +33,7 @@ void gm_component_reset(const gm_reduced_map *map, gm_component *c)
                 c->value[id][p].real = gm_variables[id].start;
             else
                 c->value[id][p].integer = (int)gm_variables[id].start;
+    c->value[GM_OIL_TEMPERATURE][0].real = map->oil_temperature;
     for (int p = 0; p < map->n_paths; p++) {
         gm_real torque = map->path[p].sync_torque;
         c->value[GM_PATH_SYNC_TORQUE][p].real =

@@ -37,7 +37,7 @@ int gm_component_start(const gm_reduced_map *map, gm_component *c);
 /** One step of h > 0 s. Returns flags; GM_FLAG_NOT_FINITE: nothing was changed. */
 int gm_component_step(const gm_reduced_map *map, gm_component *c, gm_real h);
 
-/** Store a value; the caller has checked that it may be set (gm_run_settable). */
+/** Store a value; gm_run_set has checked that it may be set. */
 void gm_component_set(gm_component *c, gm_reference reference, gm_value value);
 
 /** Slope of a torque input [N.m/s]; false when the variable is not one. */

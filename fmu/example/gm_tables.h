@@ -70,6 +70,7 @@ static const gm_reduced_map gm_tables_map = {
     .configurations = configurations,
     .coupling = {.x = AXIS(speed_relative), .value = coupling},
     .inertia_output = 0.1,
+    .oil_temperature = 333.15,
 };
 // clang-format on
 

@@ -52,6 +52,7 @@ static const gm_reduced_map gm_tables_map = {
     .n_configurations = 2,
     .configurations = configurations,
     .inertia_output = 0.05,
+    .oil_temperature = 263.15,
 };
 // clang-format on
 

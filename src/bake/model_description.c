@@ -303,6 +303,8 @@ static void write_origin(xml *x)
 
 static double start_value(const xml *x, scalar s)
 {
+    if (s.id == VARIABLE_OIL_TEMPERATURE)
+        return x->map->oil_temperature;
     if (s.id != VARIABLE_PATH_SYNC_TORQUE)
         return gm_bake_variables[s.id].start;
     double torque = x->map->paths[s.path].sync_torque;

@@ -361,7 +361,9 @@ static void map_struct(const writer *w)
     struct1(w, &w->reduced->coupling);
     gm_buffer_text(w->text, ",\n    .inertia_output = ");
     gm_buffer_number(w->text, w->reduced->inertia_output);
-    gm_buffer_text(w->text, ", /* kg.m2 */\n};\n\n#endif\n");
+    gm_buffer_text(w->text, ", /* kg.m2 */\n    .oil_temperature = ");
+    gm_buffer_number(w->text, w->reduced->oil_temperature);
+    gm_buffer_text(w->text, ", /* K */\n};\n\n#endif\n");
 }
 
 /* A hash as it may stand in a comment, whatever the map says. */

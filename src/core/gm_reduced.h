@@ -94,9 +94,10 @@ typedef struct gm_reduced_map {
      */
     int n_configurations;
     const gm_configuration *configurations;
-    gm_table1 coupling;     /* C: x relative speed w_0 - w_1, signed [rad/s] -> N.m; zero
-                               when value = NULL. C(w_1 - w_0) = -C(w_0 - w_1). */
-    gm_real inertia_output; /* J_out [kg.m2] */
+    gm_table1 coupling;      /* C: x relative speed w_0 - w_1, signed [rad/s] -> N.m; zero
+                                when value = NULL. C(w_1 - w_0) = -C(w_0 - w_1). */
+    gm_real inertia_output;  /* J_out [kg.m2] */
+    gm_real oil_temperature; /* that the tables hold for [K] */
 } gm_reduced_map;
 
 typedef enum gm_path_mode {

@@ -203,6 +203,7 @@ static gm_status build(const builder *b)
     const gm_map_table *coupling = gm_map_find(b->map, &key);
     reduced->n_paths = b->map->n_paths;
     reduced->inertia_output = b->map->inertia_output;
+    reduced->oil_temperature = b->map->oil_temperature;
     if (coupling)
         reduced->coupling = table1_of(coupling);
     for (int p = 0; status == GM_OK && p < reduced->n_paths; p++)

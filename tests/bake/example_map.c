@@ -159,7 +159,7 @@ gm_map *example_map(int n_paths)
     map->n_paths = n_paths;
     map->speed_max = 1500.0;
     map->torque_max = 400.0;
-    map->oil_temperature = 353.15;
+    map->oil_temperature = 313.15;
     map->inertia_output = 20.0;
     set_paths(map);
     for (int p = 0; p < n_paths; p++)

@@ -87,6 +87,7 @@ static void same_map(const gm_reduced_map *a, const gm_reduced_map *b)
     assert_int_equal(a->n_paths, b->n_paths);
     assert_int_equal(a->n_configurations, b->n_configurations);
     assert_true(a->inertia_output == b->inertia_output);
+    assert_true(a->oil_temperature == b->oil_temperature);
     for (int p = 0; p < a->n_paths; p++)
         same_path(&a->path[p], &b->path[p]);
     for (int i = 0; i < a->n_configurations; i++) {

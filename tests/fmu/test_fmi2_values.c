@@ -27,9 +27,11 @@ static void start_values_are_in_the_binary(void **state)
     for (int id = 0; id < GM_VARIABLES; id++)
         for (int p = 0; p < (gm_variables[id].scope == GM_SCOPE_PATH ? 2 : 1); p++) {
             gm_variable_id v = (gm_variable_id)id;
-            double expected = v == GM_PATH_SYNC_TORQUE
-                                  ? gm_model_map()->path[p].sync_torque
-                                  : gm_variables[id].start;
+            double expected = gm_variables[id].start;
+            if (v == GM_PATH_SYNC_TORQUE)
+                expected = gm_model_map()->path[p].sync_torque;
+            if (v == GM_OIL_TEMPERATURE)
+                expected = gm_model_map()->oil_temperature;
             if (gm_variables[id].initial == GM_INITIAL_CALCULATED)
                 continue;
             if (gm_variables[id].type == GM_TYPE_REAL)

@@ -42,6 +42,7 @@ static void shows_gears_with_ratios_and_load_losses(void **state)
     const gm_reduced_map *reduced = gm_map_view_reduced(view);
     assert_int_equal(reduced->n_paths, 2);
     assert_true(reduced->inertia_output == map->inertia_output);
+    assert_true(reduced->oil_temperature == map->oil_temperature);
     for (int p = 0; p < 2; p++) {
         const gm_path *path = &reduced->path[p];
         assert_int_equal(path->n_gears, 2);
