@@ -101,32 +101,24 @@ bool gm_bake_depends_initially(scalar of, scalar on)
 #define RPM 9.5492965855137201 /* 30/pi */
 #define DEGREES 57.295779513082321
 
+// clang-format off
 static const unit_type units[] = {
-    {"1", "Factor", "Factor", 0, 0, 0, 0, 0, {NULL, 0.0, 0.0}},
-    {"J", "Energy", "Energy", 1, 2, -2, 0, 0, {"kJ", 1e-3, 0.0}},
-    {"K",
-     "Temperature",
-     "ThermodynamicTemperature",
-     0,
-     0,
-     0,
-     1,
-     0,
-     {"degC", 1.0, -273.15}},
-    {"N.m", "Torque", "Torque", 1, 2, -2, 0, 0, {NULL, 0.0, 0.0}},
-    {"W", "Power", "Power", 1, 2, -3, 0, 0, {"kW", 1e-3, 0.0}},
-    {"rad", "Angle", "Angle", 0, 0, 0, 0, 1, {"deg", DEGREES, 0.0}},
-    {"rad/s", "AngularVelocity", "AngularVelocity", 0, 0, -1, 0, 1, {"rpm", RPM, 0.0}},
-    {"rad/s2",
-     "AngularAcceleration",
-     "AngularAcceleration",
-     0,
-     0,
-     -2,
-     0,
-     1,
-     {NULL, 0.0, 0.0}},
+    {.unit = "1", .type = "Factor", .quantity = "Factor"},
+    {.unit = "J", .type = "Energy", .quantity = "Energy",
+     .kg = 1, .m = 2, .s = -2, .display = {"kJ", 1e-3, 0.0}},
+    {.unit = "K", .type = "Temperature", .quantity = "ThermodynamicTemperature",
+     .K = 1, .display = {"degC", 1.0, -273.15}},
+    {.unit = "N.m", .type = "Torque", .quantity = "Torque", .kg = 1, .m = 2, .s = -2},
+    {.unit = "W", .type = "Power", .quantity = "Power",
+     .kg = 1, .m = 2, .s = -3, .display = {"kW", 1e-3, 0.0}},
+    {.unit = "rad", .type = "Angle", .quantity = "Angle",
+     .rad = 1, .display = {"deg", DEGREES, 0.0}},
+    {.unit = "rad/s", .type = "AngularVelocity", .quantity = "AngularVelocity",
+     .s = -1, .rad = 1, .display = {"rpm", RPM, 0.0}},
+    {.unit = "rad/s2", .type = "AngularAcceleration", .quantity = "AngularAcceleration",
+     .s = -2, .rad = 1},
 };
+// clang-format on
 enum { N_UNITS = sizeof units / sizeof *units };
 
 int gm_bake_units(const unit_type **all)
