@@ -17,7 +17,7 @@ GM_NODISCARD gm_status gm_fmu_probe_create(gm_fmu *fmu, const gm_plant *plant,
 void gm_fmu_probe_destroy(gm_fmu_probe *probe);
 
 /** The probe as gm_verify_steady takes it. Asking answers GM_ERR_MODEL when the FMU does
- * not have the point's gear. */
+ *  not have the point's gear. */
 gm_reduced_probe gm_fmu_probe_interface(gm_fmu_probe *probe);
 
 #endif

@@ -14,9 +14,9 @@ typedef struct gm_compiler {
 } gm_compiler;
 
 /** Find the compiler: `wanted` when it is not NULL, else $CC, else cc, gcc, clang. The
- * two texts are split at spaces: the first word names the program, the others precede
- * what the component needs (-O3 wins over another level). GM_ERR_TOOL with the names that
- * were tried. */
+ *  two texts are split at spaces: the first word names the program, the others precede
+ *  what the component needs (-O3 wins over another level). GM_ERR_TOOL with the names
+ *  that were tried. */
 GM_NODISCARD gm_status gm_compiler_find(const char *wanted, gm_compiler *compiler,
                                         gm_error *error);
 

@@ -4,8 +4,9 @@
  *
  * Unknown are the acceleration a of the output and b_n of each free path. The balance
  *
- *   F_o = J_s a - tau_o - sum_E r (g_p - sigma_p D_p) - sum_sync r T_c + sum_N R + sigma
- * (P + X) F_n = J_n b - g_n + N_n + T_c,n            g_0 = tau_0 - C,  g_1 = tau_1 + C
+ *   F_o = J_s a - tau_o - sum_E r (g_p - sigma_p D_p) - sum_sync r T_c + sum_N R
+ *         + sigma (P + X)
+ *   F_n = J_n b - g_n + N_n + T_c,n            g_0 = tau_0 - C,  g_1 = tau_1 + C
  *
  * holds at the mean speeds m = w + h/2 dw/dt. Inside the cells of all tables the terms
  * are linear but for small bilinear remainders, so one Newton pass solves it; when a

@@ -54,7 +54,7 @@ bool gm_map_axes_fit(gm_symbol symbol, int n_axes, const int *n, const double *c
 GM_NODISCARD gm_status gm_map_check_frame(const gm_map *map, gm_error *error);
 
 /** The frame, and all that a finished map must also have: ratios, inertias, finite
- * values. GM_ERR_FORMAT with a sentence that names what is wrong. */
+ *  values. GM_ERR_FORMAT with a sentence that names what is wrong. */
 GM_NODISCARD gm_status gm_map_check(const gm_map *map, gm_error *error);
 
 #endif

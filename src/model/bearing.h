@@ -4,9 +4,9 @@
  * Palmgren (bearing_palmgren.c). What depends on speed alone is computed once per speed
  * and used for every load.
  *
- * Both are the friction of the rolling and sliding contacts in a low oil bath; contact
- * seals (drag.h: gm_seal_torque) and the extra drag of deeply flooded bearings are not
- * in.
+ * Both are the friction of the rolling and sliding contacts; SKF adds the drag of a
+ * bearing that dips into the oil (bearing_bath.c). Contact seals are parts of their own
+ * (drag.h).
  */
 #ifndef BEARING_H
 #define BEARING_H
@@ -31,7 +31,13 @@ typedef struct gm_skf {
     double rs;        /* starvation: K_rs nu (d + D) sqrt(K_Z / (2 (D - d))) */
     double bl;        /* boundary lubrication: 2.6e-8 d_m nu^1.4 */
     double mu_EHL;
+    double K_Z, K_L; /* geometry constants of the drag in the oil bath */
 } gm_skf;
+
+/** SKF drag in the oil bath: M = flow n^2 + viscous n^0.621 [N.mm, n in rpm]. */
+typedef struct gm_skf_bath {
+    double flow, viscous;
+} gm_skf_bath;
 
 /** What the Palmgren model needs, in N, N.mm, mm2/s, rpm. */
 typedef struct gm_palmgren {
@@ -46,6 +52,7 @@ typedef struct gm_bearing_law {
     double nu; /* mm2/s */
     gm_skf skf;
     gm_palmgren palmgren;
+    gm_skf_bath bath; /* zero: above the oil */
 } gm_bearing_law;
 
 /** Factors at one speed w [rad/s]; d_ are derivatives by w. */
@@ -53,6 +60,7 @@ typedef struct gm_bearing_speed {
     double w;                  /* >= 0 */
     double rolling, d_rolling; /* SKF: phi_ish phi_rs (nu n)^0.6; Palmgren: M_0 [N.mm] */
     double sliding, d_sliding; /* SKF: mu_sl */
+    double drag, d_drag;       /* SKF: in the oil bath [N.mm] */
     double F_g_rr, d_F_g_rr;   /* SKF angular contact: centrifugal load [N], rolling */
     double F_g_sl, d_F_g_sl;   /* and sliding */
 } gm_bearing_speed;
@@ -64,6 +72,11 @@ typedef struct gm_bearing_speed {
  *  bearing_mu_ehl for ball bearings. */
 GM_NODISCARD gm_status gm_bearing_law_make(const gm_bearing_data *data, const gm_oil *oil,
                                            gm_bearing_law *law, gm_error *error);
+
+/** The bearing runs in the oil bath: H [m] is the level above the lowest contact of the
+ *  outer raceway (bearing_bath.c). Nothing for H <= 0, nor for Palmgren, whose f_0 is
+ *  that of an oil bath already. */
+void gm_bearing_immerse(gm_bearing_law *law, double H);
 
 /** Fill d, D, B, C0 and series of a bearing from its designation (deep groove ball
  *  bearings of bearing_catalogue.c). GM_ERR_MODEL when it is not in the catalogue; *data

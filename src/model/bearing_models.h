@@ -8,10 +8,13 @@
 
 #include "model/bearing.h"
 
-/** A row of the SKF friction constants; K_Z as well, which depends on the same choice. */
+#include <stdbool.h>
+
+/** A row of the SKF friction constants, and K_Z and K_L, which depend on the same choice.
+ */
 typedef struct gm_skf_row {
     const char *series;
-    double R1, R2, R3, S1, S2, S3, K_Z;
+    double R1, R2, R3, S1, S2, S3, K_Z, K_L;
 } gm_skf_row;
 
 /** Rows of a type; *n receives their number. */
@@ -25,6 +28,12 @@ GM_NODISCARD gm_status gm_skf_find(gm_bearing_type type, const char *series,
 
 /** Fill law->skf; law->data and law->nu are set. mu_EHL of ball bearings from the oil. */
 void gm_skf_make(gm_bearing_law *law, const gm_skf_row *row, double mu_EHL_ball);
+
+/** V_M of the drag in the oil bath at the level H over d_m (0 to 1.2). */
+double gm_skf_drag_variable(const gm_bearing_data *data, double H_share);
+
+/** Drag of law's bearing at level H > 0 [mm] with that V_M. */
+gm_skf_bath gm_skf_bath_at(const gm_bearing_law *law, double H, double V_M);
 
 /** Factors that depend on speed, at n >= 0 [rpm]; d_ are derivatives by n. */
 typedef struct gm_skf_phi {

@@ -4,22 +4,25 @@
  * 10000, "The SKF model for calculating the frictional moment"). Mixed units: N, mm,
  * N.mm, rpm, mm2/s; d_m = (d + D)/2.
  *
- *   M      = phi_ish phi_rs G_rr (nu n)^0.6 + G_sl mu_sl
+ *   M       = phi_ish phi_rs G_rr (nu n)^0.6 + G_sl mu_sl + M_drag (bearing_bath.c)
  *   phi_ish = 1 / (1 + 1.84e-9 (n d_m)^1.28 nu^0.64)
  *   phi_rs  = exp(-K_rs nu n (d + D) sqrt(K_Z / (2 (D - d)))),  K_rs = 3e-8: low oil bath
- *   mu_sl   = phi_bl mu_bl + (1 - phi_bl) mu_EHL,  phi_bl = exp(-2.6e-8 (n nu)^1.4 d_m)
+ *   mu_sl   = phi_bl mu_bl + (1 - phi_bl) mu_EHL
+ *   phi_bl  = exp(-2.6e-8 (n nu)^1.4 d_m)
  *   mu_bl   = 0.12 for n > 0 and for the limit n -> 0+ (the 0.15 of the first start is
- * not a limit of motion);  mu_EHL = 0.02 cylindrical and needle, 0.002 tapered roller,
- * for balls a property of the oil
+ *             not a limit of motion)
+ *   mu_EHL  = 0.02 cylindrical and needle, 0.002 tapered roller; balls: a property of oil
  *
- *                     G_rr                                G_sl
- *   deep groove ball  R1 dm^1.96 (Fr + R2 A)^0.54         S1 dm^-0.145 (Fr^5 + S2 dm^1.5
- * A A = Fa / sin(alpha_F)                   Fa^3)^(1/3) with Fa = 0      R1 dm^1.96
- * Fr^0.54                  S1 dm^-0.26 Fr^(5/3) angular contact   R1 dm^1.97 (Fr + Fg +
- * R2 Fa)^0.54   S1 dm^0.26 ((Fr + Fg)^(4/3) Fg = R3 dm^4 n^2                        + S2
- * Fa^(4/3)), Fg with S3 cylindrical       R1 dm^2.41 Fr^0.31                  S1 dm^0.9
- * Fa + S2 dm Fr tapered           R1 dm^2.38 (Fr + R2 Y Fa)^0.31      S1 dm^0.82 (Fr + S2
- * Y Fa)
+ *   deep groove ball  G_rr = R1 dm^1.96 (Fr + R2 A)^0.54
+ *                     G_sl = S1 dm^-0.145 (Fr^5 + S2 dm^1.5 A Fa^3)^(1/3)
+ *                     with A = Fa / sin(alpha_F); for Fa = 0:
+ *                     G_rr = R1 dm^1.96 Fr^0.54,  G_sl = S1 dm^-0.26 Fr^(5/3)
+ *   angular contact   G_rr = R1 dm^1.97 (Fr + Fg + R2 Fa)^0.54,  Fg = R3 dm^4 n^2
+ *                     G_sl = S1 dm^0.26 ((Fr + Fg)^(4/3) + S2 Fa^(4/3)), Fg with S3
+ *   cylindrical       G_rr = R1 dm^2.41 Fr^0.31
+ *                     G_sl = S1 dm^0.9 Fa + S2 dm Fr
+ *   tapered           G_rr = R1 dm^2.38 (Fr + R2 Y Fa)^0.31
+ *                     G_sl = S1 dm^0.82 (Fr + S2 Y Fa)
  *
  *   alpha_F = 24.6 (Fa/C0)^0.24 degrees
  *
@@ -31,8 +34,8 @@
  *   blended by a smoothstep over 0 <= Fa <= 0.002 C0.
  * - A grows as Fa^0.76: a parabola below 1e-4 C0 (see power.h). Fa/C0 in alpha_F counts
  *   as 1 at most; the catalogue's loads end near 0.5.
- * - Loads to the power 0.54 or 0.31: a parabola below 1 N; nu n to 0.6: below 1 mm2/s
- * rpm.
+ * - Loads to the power 0.54 or 0.31: a parabola below 1 N; nu n to 0.6: below 1
+ *   mm2/s rpm.
  *
  * Valid for steady speed and constant load at or above the minimum load of the bearing,
  * normal clearance, speeds within the rating.
@@ -46,6 +49,7 @@
 static const double K_rs = 3e-8;
 static const double mu_bl = 0.12;
 static const double small_load = 1.;     /* N */
+static const double small_n = 1.;        /* rpm, of the drag in the oil bath */
 static const double small_nu_n = 1.;     /* mm2/s rpm */
 static const double blend_share = 0.002; /* of C0 */
 static const double small_share = 1e-4;  /* of C0 */
@@ -107,7 +111,7 @@ void gm_skf_make(gm_bearing_law *law, const gm_skf_row *row, double mu_EHL_ball)
     double d = 1e3 * law->data.d, D = 1e3 * law->data.D, nu = law->nu;
     double d_m = 0.5 * (d + D);
     gm_skf *skf = &law->skf;
-    *skf = (gm_skf){.mu_EHL = mu_EHL_ball};
+    *skf = (gm_skf){.mu_EHL = mu_EHL_ball, .K_Z = row->K_Z, .K_L = row->K_L};
     skf->ish = 1.84e-9 * pow(d_m, 1.28) * pow(nu, 0.64);
     skf->rs = K_rs * nu * (d + D) * sqrt(row->K_Z / (2. * (D - d)));
     skf->bl = 2.6e-8 * d_m * pow(nu, 1.4);
@@ -157,6 +161,9 @@ gm_bearing_speed gm_skf_at_speed(const gm_bearing_law *law, double w)
     speed.d_F_g_rr = rpm * 2. * skf->F_g_rr * n;
     speed.F_g_sl = skf->F_g_sl * n * n;
     speed.d_F_g_sl = rpm * 2. * skf->F_g_sl * n;
+    gm_power viscous = gm_power_from_zero(n, 0.621, small_n);
+    speed.drag = law->bath.flow * n * n + law->bath.viscous * viscous.value;
+    speed.d_drag = rpm * (2. * law->bath.flow * n + law->bath.viscous * viscous.slope);
     return speed;
 }
 
@@ -252,9 +259,10 @@ gm_bearing_torque gm_skf_friction(const gm_bearing_law *law,
     gm_skf_loads g = gm_skf_at_loads(law, speed, F_r, F_a);
     double rr = 1e-3 * speed->rolling, sl = 1e-3 * speed->sliding; /* N.mm to N.m */
     return (gm_bearing_torque){
-        .value = rr * g.G_rr + sl * g.G_sl,
+        .value = rr * g.G_rr + sl * g.G_sl + 1e-3 * speed->drag,
         .d_speed = 1e-3 * (speed->d_rolling * g.G_rr + speed->d_sliding * g.G_sl) +
-                   rr * g.rr_g * speed->d_F_g_rr + sl * g.sl_g * speed->d_F_g_sl,
+                   rr * g.rr_g * speed->d_F_g_rr + sl * g.sl_g * speed->d_F_g_sl +
+                   1e-3 * speed->d_drag,
         .d_radial = rr * g.rr_r + sl * g.sl_r,
         .d_axial = rr * g.rr_a + sl * g.sl_a};
 }

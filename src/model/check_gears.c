@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
  * Gears on their shafts, and gears with their mates (ISO 21771):
- *   equal normal module and pressure angle; opposite helices (external), equal
- * (internal); centre distance at zero backlash, from teeth, module, helix and profile
- * shift, equal to the distance of the shafts; contact ratio 1 <= eps_alpha <= 2.5; root
- * circle d + 2 m_n (x - 1.25) outside the bore (external teeth).
+ *   equal normal module and pressure angle;
+ *   opposite helices (external), equal ones (internal);
+ *   centre distance at zero backlash, from teeth, module, helix and profile shift, equal
+ *   to the distance of the shafts;
+ *   contact ratio 1 <= eps_alpha <= 2.5;
+ *   root circle d + 2 m_n (x - 1.25) outside the bore (external teeth).
  */
 #include "model/check.h"
 #include "model/mesh.h"

@@ -39,7 +39,7 @@ enum { GM_YAML_SHOW = 80 };
 const char *gm_yaml_show(const gm_yaml *node, char buffer[GM_YAML_SHOW]);
 
 /** Bytes of text that are fit for a message on one line: cut to 60, no control
- * characters. */
+ *  characters. */
 const char *gm_yaml_show_text(const char *text, char quote, char buffer[GM_YAML_SHOW]);
 
 #endif

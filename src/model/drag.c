@@ -20,7 +20,7 @@
  *   C_m = 0.239 (h/D_p)^0.45 (V_0/D_p^3)^0.1 Fr^-0.6                Re_c > 9000
  *   Fr = w^2 R_p / g,  Re = w R_p^2 / nu,  Re_c = w R_p b / nu
  *   S_m = R_p^2 (2 theta - sin 2 theta) + 2 theta R_p b,  cos theta = 1 - h/R_p
- * linear in between. T ~ w^0.59 has no slope at w = 0: a parabola below 0.1 rad/s.
+ * and linear in between. T ~ w^0.59 has no slope at w = 0: a parabola below 0.1 rad/s.
  */
 #include "model/drag.h"
 

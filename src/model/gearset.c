@@ -106,6 +106,16 @@ static gm_status make_law(const gm_gearset *gearset, const gm_bearing_data *data
     return GM_OK;
 }
 
+/* Oil level above the lowest contact of the outer raceway, whose diameter is about
+ * d_m + 0.3 (D - d): rolling elements of 0.3 (D - d). NAN without a bath. */
+static double bath_level(const gm_description *d, const gm_bearing *bearing,
+                         const gm_bearing_law *law)
+{
+    double d_m = 0.5 * (law->data.d + law->data.D);
+    double raceway = 0.5 * (d_m + 0.3 * (law->data.D - law->data.d));
+    return d->oil.level - (d->shafts[bearing->shaft].z - raceway);
+}
+
 static gm_status shaft_bearings(gm_gearset *gearset, gm_error *error)
 {
     const gm_description *d = gearset->description;
@@ -120,6 +130,8 @@ static gm_status shaft_bearings(gm_gearset *gearset, gm_error *error)
             make_law(gearset, &bearing->data, &bearing->id, &element->law, error);
         if (status != GM_OK)
             return status;
+        if (bearing->on == GM_HOUSING)
+            gm_bearing_immerse(&element->law, bath_level(d, bearing, &element->law));
     }
     gearset->n_bearings = d->n_bearings;
     return GM_OK;

@@ -48,7 +48,7 @@ GM_NODISCARD gm_status gm_gearset_kinematics(const gm_gearset *gearset, const in
 double gm_gearset_sync_torque(const gm_gearset *gearset, int p);
 
 /** Speeds of path p in gear `number` [rad/s, ascending, at most n_max] at which the
- * sliding speed of a loaded mesh leaves boundary friction: kinks of the loss. Returns
+ *  sliding speed of a loaded mesh leaves boundary friction: kinks of the loss. Returns
  *  their number. */
 int gm_gearset_kink_speeds(const gm_gearset *gearset, int p, int number, int n_max,
                            double *speed);
@@ -61,7 +61,7 @@ int gm_gearset_kink_torques(const gm_gearset *gearset, int p, int number, int n_
 
 /** Ratios w_path / w_output of path p in neutral at which a bearing between a part that
  *  turns with the path and one that turns with the output does not turn: where the drag
- * on the path jumps. Ascending, each once, at most n_max. Returns their number. */
+ *  on the path jumps. Ascending, each once, at most n_max. Returns their number. */
 int gm_gearset_drag_lines(const gm_gearset *gearset, int p, int n_max, double *ratio);
 
 /** Workspace of the steady balance for one thread; keeps what does not change while the

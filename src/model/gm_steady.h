@@ -12,13 +12,12 @@
 /** One operating point. The speeds of the output and of the paths in neutral are
  *  independent and given; the torques of the engaged paths are given. */
 typedef struct gm_steady_point {
-    int gear[GM_MAX_INPUT_PATHS]; /* gear numbers, 0 neutral */
-    double speed[GM_MAX_FLANGES]; /* rad/s: output and neutral paths */
-    double
-        direction[GM_MAX_FLANGES]; /* same flanges: where a relative speed is zero,
+    int gear[GM_MAX_INPUT_PATHS];     /* gear numbers, 0 neutral */
+    double speed[GM_MAX_FLANGES];     /* rad/s: output and neutral paths */
+    double direction[GM_MAX_FLANGES]; /* same flanges: where a relative speed is zero,
                                       friction takes the limit for flanges that start to
                                       move along this vector (any scale; 0: not moving) */
-    double torque[GM_MAX_FLANGES]; /* N.m: engaged paths */
+    double torque[GM_MAX_FLANGES];    /* N.m: engaged paths */
 } gm_steady_point;
 
 typedef struct gm_steady_result {

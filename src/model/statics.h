@@ -13,7 +13,7 @@
 #include "model/gm_description.h"
 
 /** Force of a mesh on one of its wheels per newton of base-tangent force F (signed) and
- * of |F|; components x, y, z; acting at `point` (absolute). */
+ *  of |F|; components x, y, z; acting at `point` (absolute). */
 typedef struct gm_contact {
     double signed_part[3];
     double magnitude_part[3];
@@ -32,7 +32,7 @@ typedef struct gm_load_row {
 void gm_load_row_clear(gm_load_row *row);
 
 /** Radial and axial magnitude under mesh forces F, and their derivatives by the n forces
- * of the row. d_radial and d_axial may be NULL. */
+ *  of the row. d_radial and d_axial may be NULL. */
 void gm_load_row_at(const gm_load_row *row, const double *F, double *radial,
                     double *axial, double *d_radial, double *d_axial);
 

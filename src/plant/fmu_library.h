@@ -31,8 +31,8 @@ typedef struct fmu_library {
 } fmu_library;
 
 /** Load binaries/<platform>/<identifier> of an unpacked FMU; archive names it in
- * messages. GM_ERR_FORMAT when there is no such file or a function is missing,
- * GM_ERR_TOOL when it cannot be loaded. */
+ *  messages. GM_ERR_FORMAT when there is no such file or a function is missing,
+ *  GM_ERR_TOOL when it cannot be loaded. */
 GM_NODISCARD gm_status gm_fmu_library_load(const char *folder, const char *identifier,
                                            const char *archive, fmu_library *library,
                                            gm_error *error);

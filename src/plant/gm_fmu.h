@@ -15,7 +15,7 @@ extern "C" {
 typedef struct gm_fmu gm_fmu;
 
 /** Open and instantiate. GM_ERR_IO, GM_ERR_FORMAT (not an archive, no modelDescription,
- * no binary for this platform, entries that would leave the folder), GM_ERR_TOOL. */
+ *  no binary for this platform, entries that would leave the folder), GM_ERR_TOOL. */
 GM_NODISCARD gm_status gm_fmu_open(const char *path, gm_fmu **fmu, gm_error *error);
 void gm_fmu_close(gm_fmu *fmu);
 

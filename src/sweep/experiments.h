@@ -6,17 +6,18 @@
  * Neutral paths are at rest (speed 0, direction 0) except where a row turns them.
  *
  *   C(d)      = [tau_0(w_1 = -d) - tau_0(w_1 = +d)] / 2, both paths in neutral, path 0
- * and output at 0+: the odd part of tau_0 over the relative speed d = w_0 - w_1 P_s =
- * sigma T_o where the engaged paths transmit nothing, tau_m,p = 0 |r_p| D_p = sigma (T_o
- * + r_p tau_m,p) - P_s, the other path at rest X_s       = sigma (T_o + sum r_p tau_p) -
- * P_s - sum |r_p| D_p, both paths engaged N         = tau_n - C(w_n), R = T_o(w_n, w_o) -
- * T_o(0, w_o), both in neutral jump      = N just above minus N just below the line w_n =
- * r_g w_o
+ *               and output at 0+: the odd part of tau_0 over the relative speed
+ *               d = w_0 - w_1
+ *   P_s       = sigma T_o where the engaged paths transmit nothing, tau_m,p = 0
+ *   |r_p| D_p = sigma (T_o + r_p tau_m,p) - P_s, the other path at rest
+ *   X_s       = sigma (T_o + sum r_p tau_p) - P_s - sum |r_p| D_p, both paths engaged
+ *   N         = tau_n - C(w_n),  R = T_o(w_n, w_o) - T_o(0, w_o), both in neutral
+ *   jump      = N just above minus N just below a drag line w_n = r w_o
  *
  * N and R are stored without the steps on the lines (core/gm_reduced.h adds them back as
  * ramps):
- *   N_smooth = N - sum_g jump_g / 2 sgn(w_n - r_g w_o)
- *   R_smooth = R + sum_g r_g jump_g / 2 [sgn(w_n - r_g w_o) - sgn(-r_g w_o)]
+ *   N_smooth = N - sum jump / 2 sgn(w_n - r w_o)
+ *   R_smooth = R + sum r jump / 2 [sgn(w_n - r w_o) - sgn(-r w_o)]
  */
 #ifndef EXPERIMENTS_H
 #define EXPERIMENTS_H

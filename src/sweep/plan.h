@@ -6,8 +6,9 @@
  * matters:
  *
  *   1  coupling C, jumps on the lines, reference torque of the output, P of
- * configurations with all or no path in neutral 2  D (with the P of its configuration:
- * the same points at zero torque), N with R 3  X, which is what P and the D tables leave
+ *      configurations with all or no path in neutral
+ *   2  D (with the P of its configuration: the same points at zero torque), N with R
+ *   3  X, which is what P and the D tables leave
  */
 #ifndef PLAN_H
 #define PLAN_H
@@ -54,7 +55,7 @@ typedef struct gm_sweep_plan {
 
 /** Add all tables to the map, whose paths, ratios and maxima are set, and list the jobs.
  *  The plan refers to plant and map, which must outlive it. GM_ERR_ARGUMENT when the
- * steps give too many nodes. */
+ *  steps give too many nodes. */
 GM_NODISCARD gm_status gm_sweep_plan_create(const gm_plant *plant,
                                             const gm_sweep_options *options, gm_map *map,
                                             gm_sweep_plan **plan, gm_error *error);

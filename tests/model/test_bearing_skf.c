@@ -53,6 +53,62 @@ static void ball_bearing_6206(void **state)
     check_case(&law, &both);
 }
 
+/* 6206 with 15 mm of oil above the lowest contact and V_M 4.05e-4 at 3000 rpm, 15 mm2/s:
+ * 2.676370 + 0.9185907 N.mm. */
+static void drag_in_the_oil_bath(void **state)
+{
+    (void)state;
+    gm_bearing_data data = {.type = GM_BEARING_DEEP_GROOVE_BALL,
+                            .friction = GM_FRICTION_SKF,
+                            .designation = "6206"};
+    gm_bearing_law law = bearing_in_oil(data, 15., 0.05);
+    gm_skf_bath bath = gm_skf_bath_at(&law, 15., 4.05e-4);
+    check_close("flow", bath.flow * 3000. * 3000., 2.676370, 1e-6);
+    check_close("viscous", bath.viscous * pow(3000., 0.621), 0.9185907, 1e-6);
+    check_close("V_M", gm_skf_drag_variable(&data, 0.3), 3.814e-4, 1e-12);
+    check_close("V_M", gm_skf_drag_variable(&data, 9.9), 1.238e-3, 1e-12);
+    data.type = GM_BEARING_TAPERED_ROLLER;
+    check_close("V_M", gm_skf_drag_variable(&data, 0.45), 6.2625e-4, 1e-12);
+}
+
+/* The oil adds a torque that does not depend on load and grows with level and speed. */
+static void immersion_adds_drag(void **state)
+{
+    (void)state;
+    static const gm_bearing_type types[] = {GM_BEARING_DEEP_GROOVE_BALL,
+                                            GM_BEARING_CYLINDRICAL_ROLLER};
+    for (int k = 0; k < 2; k++) {
+        gm_bearing_data data = {.type = types[k],
+                                .friction = GM_FRICTION_SKF,
+                                .series = "2",
+                                .d = 0.030,
+                                .D = 0.062,
+                                .B = 0.016,
+                                .C0 = 11200.};
+        gm_bearing_law dry = bearing_in_oil(data, 15., 0.05), wet = dry;
+        gm_bearing_immerse(&wet, 0.0);
+        assert_true(wet.bath.flow == 0. && wet.bath.viscous == 0.);
+        gm_bearing_immerse(&wet, (double)NAN);
+        assert_true(wet.bath.flow == 0.);
+        double below = 0.;
+        for (double H = 0.005; H < 0.08; H += 0.005) {
+            gm_bearing_immerse(&wet, H);
+            gm_bearing_speed at = gm_bearing_at_speed(&wet, 314.),
+                             up = gm_bearing_at_speed(&wet, 314. * (1. + 1e-6)),
+                             at_dry = gm_bearing_at_speed(&dry, 314.);
+            gm_bearing_torque M = gm_bearing_friction(&wet, &at, 500., 0.);
+            double more = M.value - gm_bearing_friction(&dry, &at_dry, 500., 0.).value;
+            assert_true(more > 0. && more >= below);
+            below = more;
+            double slope = (gm_bearing_friction(&wet, &up, 500., 0.).value - M.value) /
+                           (314. * 1e-6);
+            check_close("slope", M.d_speed, slope, 1e-4);
+        }
+        gm_bearing_speed rest = gm_bearing_at_speed(&wet, 0.);
+        assert_true(rest.drag == 0.);
+    }
+}
+
 /* SKF's quick estimate 0.5 mu P d, mu = 0.0015 for deep groove ball bearings at P = 0.1 C
  * and good lubrication: an order of magnitude, here within a quarter. */
 static void agrees_with_the_quick_estimate(void **state)
@@ -185,6 +241,8 @@ static void limits_at_zero_are_finite(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(drag_in_the_oil_bath),
+        cmocka_unit_test(immersion_adds_drag),
         cmocka_unit_test(ball_bearing_6206),
         cmocka_unit_test(agrees_with_the_quick_estimate),
         cmocka_unit_test(tapered_bearing_30206),
