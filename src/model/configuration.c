@@ -153,7 +153,7 @@ void gm_configuration_rows_clear(gm_configuration_rows *rows)
     memset(rows, 0, sizeof *rows);
 }
 
-static int column_of(const gm_configuration_rows *rows, int flange)
+int gm_flange_column(const gm_configuration_rows *rows, int flange)
 {
     for (int i = 0; i < rows->n_independent; i++)
         if (rows->flange[i] == flange)
@@ -183,7 +183,8 @@ static gm_status neutral_inertias(const gm_gearset *gearset, gm_kinematics *kine
         return status;
     kinematics->inertia_output = carried_inertia(gearset, &rows, 0);
     for (int p = 0; p < gearset->description->n_paths; p++)
-        kinematics->inertia[p] = carried_inertia(gearset, &rows, column_of(&rows, 1 + p));
+        kinematics->inertia[p] =
+            carried_inertia(gearset, &rows, gm_flange_column(&rows, 1 + p));
     gm_configuration_rows_clear(&rows);
     return GM_OK;
 }
@@ -207,16 +208,6 @@ gm_status gm_gearset_kinematics(const gm_gearset *gearset, const int *gear,
     return GM_OK;
 }
 
-static void sort_ascending(int n, double *x)
-{
-    for (int i = 1; i < n; i++)
-        for (int k = i; k > 0 && x[k] < x[k - 1]; k--) {
-            double t = x[k];
-            x[k] = x[k - 1];
-            x[k - 1] = t;
-        }
-}
-
 static double cone_torque_of(const gm_description *d, int wheel)
 {
     for (int s = 0; s < d->n_synchronisers; s++)
@@ -234,7 +225,7 @@ double gm_gearset_sync_torque(const gm_gearset *gearset, int p)
     if (gm_configuration_rows_make(gearset, neutral, &rows, NULL) != GM_OK)
         return (double)NAN;
     double smallest = (double)INFINITY;
-    int column = column_of(&rows, 1 + p);
+    int column = gm_flange_column(&rows, 1 + p);
     for (int i = 0; i < d->paths[p].n_gears; i++) {
         int w = d->paths[p].gears[i].wheel;
         const double *wheel = rows.speed_of + gearset->wheel_body[w] * rows.n_independent;
@@ -244,95 +235,4 @@ double gm_gearset_sync_torque(const gm_gearset *gearset, int p)
     }
     gm_configuration_rows_clear(&rows);
     return smallest;
-}
-
-int gm_gearset_kink_torques(const gm_gearset *gearset, int p, int number, int n_max,
-                            double *torque)
-{
-    int gear[GM_MAX_INPUT_PATHS] = {0};
-    gm_configuration_rows rows;
-    gear[p] = number;
-    if (gm_configuration_rows_make(gearset, gear, &rows, NULL) != GM_OK)
-        return 0;
-    int count = 0, n = rows.n_bodies, input = gm_flange_body(gearset, 1 + p);
-    for (int m = 0; m < gearset->n_meshes && count < n_max; m++) {
-        const gm_mesh_law *law = &gearset->meshes[m].law;
-        double force =
-            fabs(rows.inverse[m * n + input]); /* N for 1 N.m, without losses */
-        if (law->model == GM_MESH_ISO14179_2 && law->minimum_force > 0.0 && force > 1e-6)
-            torque[count++] = law->minimum_force / force;
-    }
-    gm_configuration_rows_clear(&rows);
-    sort_ascending(count, torque);
-    return count;
-}
-
-int gm_gearset_kink_speeds(const gm_gearset *gearset, int p, int number, int n_max,
-                           double *speed)
-{
-    int gear[GM_MAX_INPUT_PATHS] = {0};
-    gm_configuration_rows rows;
-    gear[p] = number;
-    if (gm_configuration_rows_make(gearset, gear, &rows, NULL) != GM_OK)
-        return 0;
-    int count = 0, n = rows.n_bodies, input = gm_flange_body(gearset, 1 + p);
-    double ratio = rows.speed_of[input * rows.n_independent];
-    for (int m = 0; m < gearset->n_meshes && count < n_max; m++) {
-        const gm_mesh_element *mesh = &gearset->meshes[m];
-        double loaded = fabs(rows.inverse[m * n + input]) * mesh->pair.d_b[0];
-        double slide = fabs(rows.speed_of[mesh->row.body[0] * rows.n_independent] *
-                            mesh->row.g[0] / (ratio * mesh->cos_alpha_wt)) *
-                       mesh->law.sliding_ratio;
-        if (loaded > 1e-9 && slide > 0.0)
-            speed[count++] = GM_MESH_MIN_SLIDING_SPEED / slide;
-    }
-    gm_configuration_rows_clear(&rows);
-    sort_ascending(count, speed);
-    return count;
-}
-
-/* Add x to the ascending list unless it is there: equal but for rounding. */
-static int insert_once(int n, int n_max, double *list, double x)
-{
-    for (int i = 0; i < n; i++)
-        if (fabs(list[i] - x) <= 1e-9 * fabs(x))
-            return n;
-    if (n == n_max)
-        return n;
-    list[n] = x;
-    sort_ascending(n + 1, list);
-    return n + 1;
-}
-
-/* The ratio at which bearing b stands still while path and output turn; 0 where its speed
- * does not depend on both, or also on another path. */
-static double line_of_bearing(const gm_configuration_rows *rows,
-                              const gm_bearing_element *b, int column)
-{
-    double s[GM_MAX_FLANGES] = {0.0};
-    for (int i = 0; i < rows->n_independent; i++) {
-        double on =
-            b->on == GM_HOUSING ? 0.0 : rows->speed_of[b->on * rows->n_independent + i];
-        s[i] = rows->speed_of[b->body * rows->n_independent + i] - on;
-        if (i != 0 && i != column && s[i] != 0.0)
-            return 0.0;
-    }
-    return s[column] != 0.0 ? -s[0] / s[column] : 0.0;
-}
-
-int gm_gearset_drag_lines(const gm_gearset *gearset, int p, int n_max, double *ratio)
-{
-    const int neutral[GM_MAX_INPUT_PATHS] = {0};
-    gm_configuration_rows rows;
-    if (gm_configuration_rows_make(gearset, neutral, &rows, NULL) != GM_OK)
-        return 0;
-    int n = 0, column = column_of(&rows, 1 + p);
-    for (int i = 0; i < gearset->n_bearings; i++) {
-        const gm_bearing_element *b = &gearset->bearings[i];
-        double line = line_of_bearing(&rows, b, column);
-        if (b->law.data.friction != GM_FRICTION_NONE && line != 0.0)
-            n = insert_once(n, n_max, ratio, line);
-    }
-    gm_configuration_rows_clear(&rows);
-    return n;
 }

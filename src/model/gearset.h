@@ -107,6 +107,9 @@ GM_NODISCARD gm_status gm_configuration_rows_make(const gm_gearset *gearset,
                                                   gm_error *error);
 void gm_configuration_rows_clear(gm_configuration_rows *rows);
 
+/** Column of a flange's speed among the independent speeds; -1 when it is not one. */
+int gm_flange_column(const gm_configuration_rows *rows, int flange);
+
 /** Body of a flange: 0 the output, 1 + p the input of path p. */
 int gm_flange_body(const gm_gearset *gearset, int flange);
 

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * Where losses have kinks and drags jump, so that axes can have nodes there: speeds and
+ * torques at which a loaded mesh changes its friction regime, and the ratios of speeds at
+ * which a bearing between a path and the output stands still.
+ */
+#include "model/gearset.h"
+
+#include <math.h>
+#include <stddef.h>
+
+static void sort_ascending(int n, double *x)
+{
+    for (int i = 1; i < n; i++)
+        for (int k = i; k > 0 && x[k] < x[k - 1]; k--) {
+            double t = x[k];
+            x[k] = x[k - 1];
+            x[k - 1] = t;
+        }
+}
+
+/* Speed or torque of the path at which one mesh has a kink; 0: none. force: base-tangent
+ * force for 1 N.m at the path without losses [N]; slide: sum speed v_SigmaC for 1 rad/s
+ * of the path [m/s]. */
+typedef double (*mesh_kink)(const gm_mesh_law *law, double force, double slide);
+
+/* Every mesh that carries load when path p drives in gear `number`. */
+static int find_kinks(const gm_gearset *gearset, int p, int number, mesh_kink kink,
+                      int n_max, double *found)
+{
+    int gear[GM_MAX_INPUT_PATHS] = {0};
+    gm_configuration_rows rows;
+    gear[p] = number;
+    if (gm_configuration_rows_make(gearset, gear, &rows, NULL) != GM_OK)
+        return 0;
+    int count = 0, n = rows.n_bodies, input = gm_flange_body(gearset, 1 + p);
+    double ratio = rows.speed_of[input * rows.n_independent];
+    for (int m = 0; m < gearset->n_meshes && count < n_max; m++) {
+        const gm_mesh_element *mesh = &gearset->meshes[m];
+        double force = fabs(rows.inverse[m * n + input]);
+        double along = rows.speed_of[mesh->row.body[0] * rows.n_independent] *
+                       mesh->row.g[0] / (ratio * mesh->cos_alpha_wt);
+        double x = kink(&mesh->law, force, fabs(along) * mesh->law.sliding_ratio);
+        if (force > 1e-6 && x > 0.0)
+            found[count++] = x;
+    }
+    gm_configuration_rows_clear(&rows);
+    sort_ascending(count, found);
+    return count;
+}
+
+static double least_line_load(const gm_mesh_law *law, double force, double slide)
+{
+    (void)slide;
+    return law->model == GM_MESH_ISO14179_2 && force > 0.0 ? law->minimum_force / force
+                                                           : 0.0;
+}
+
+static double end_of_boundary_friction(const gm_mesh_law *law, double force, double slide)
+{
+    (void)law, (void)force;
+    return slide > 0.0 ? GM_MESH_MIN_SLIDING_SPEED / slide : 0.0;
+}
+
+int gm_gearset_kink_torques(const gm_gearset *gearset, int p, int number, int n_max,
+                            double *torque)
+{
+    return find_kinks(gearset, p, number, least_line_load, n_max, torque);
+}
+
+int gm_gearset_kink_speeds(const gm_gearset *gearset, int p, int number, int n_max,
+                           double *speed)
+{
+    return find_kinks(gearset, p, number, end_of_boundary_friction, n_max, speed);
+}
+
+/* Add x to the ascending list unless it is there: equal but for rounding. */
+static int insert_once(int n, int n_max, double *list, double x)
+{
+    for (int i = 0; i < n; i++)
+        if (fabs(list[i] - x) <= 1e-9 * fabs(x))
+            return n;
+    if (n == n_max)
+        return n;
+    list[n] = x;
+    sort_ascending(n + 1, list);
+    return n + 1;
+}
+
+/* The ratio at which bearing b stands still while path and output turn; 0 where its speed
+ * does not depend on both, or also on another path. */
+static double line_of_bearing(const gm_configuration_rows *rows,
+                              const gm_bearing_element *b, int column)
+{
+    double s[GM_MAX_FLANGES] = {0.0};
+    for (int i = 0; i < rows->n_independent; i++) {
+        double on =
+            b->on == GM_HOUSING ? 0.0 : rows->speed_of[b->on * rows->n_independent + i];
+        s[i] = rows->speed_of[b->body * rows->n_independent + i] - on;
+        if (i != 0 && i != column && s[i] != 0.0)
+            return 0.0;
+    }
+    return s[column] != 0.0 ? -s[0] / s[column] : 0.0;
+}
+
+int gm_gearset_drag_lines(const gm_gearset *gearset, int p, int n_max, double *ratio)
+{
+    const int neutral[GM_MAX_INPUT_PATHS] = {0};
+    gm_configuration_rows rows;
+    if (gm_configuration_rows_make(gearset, neutral, &rows, NULL) != GM_OK)
+        return 0;
+    int n = 0, column = gm_flange_column(&rows, 1 + p);
+    for (int i = 0; i < gearset->n_bearings; i++) {
+        const gm_bearing_element *b = &gearset->bearings[i];
+        double line = line_of_bearing(&rows, b, column);
+        if (b->law.data.friction != GM_FRICTION_NONE && line != 0.0)
+            n = insert_once(n, n_max, ratio, line);
+    }
+    gm_configuration_rows_clear(&rows);
+    return n;
+}
