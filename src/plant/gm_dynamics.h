@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The motion of a plant over time: ordinary differential equations between events, as
+ * the transient solver, the simulate command and the vehicle see them. The detailed
+ * gearset is one such plant, a reduced gearset as an FMU another; none of its users knows
+ * which.
+ *
+ *   dx/dt = rates(x, input)        input: torques at the flanges, commanded gears
+ *
+ * The number of states and the pattern of the Jacobian stay the same over a run; what a
+ * shift or a held shaft changes are modes inside the motion, and a mode changes only in
+ * start and handle. One motion belongs to one thread; its plant may be shared.
+ */
+#ifndef GM_DYNAMICS_H
+#define GM_DYNAMICS_H
+
+#include "base/gm_status.h"
+#include "model/gm_steady.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** What acts from outside. Flange 0 is the output, flange 1 + p is path p. */
+typedef struct gm_motion_input {
+    double torque[GM_MAX_FLANGES]; /* N.m, into the gearset */
+    int gear[GM_MAX_INPUT_PATHS];  /* commanded gear numbers, 0 neutral */
+} gm_motion_input;
+
+/** What is seen at the flanges and in the accounts at one instant. */
+typedef struct gm_motion_view {
+    double speed[GM_MAX_FLANGES];        /* rad/s */
+    double acceleration[GM_MAX_FLANGES]; /* rad/s2 */
+    double loss_power;                   /* W, >= 0 */
+    double stored_energy;                /* J: kinetic and elastic */
+    int state[GM_MAX_INPUT_PATHS];       /* gm_path_mode of core/gm_reduced.h */
+} gm_motion_view;
+
+/** One quantity inside the plant that can be recorded: of a body, a mesh, a bearing. */
+typedef struct gm_motion_signal {
+    const char *name; /* such as "mesh.g1.force" */
+    const char *unit; /* such as "N" */
+} gm_motion_signal;
+
+/** Calls of a motion. `motion` is made by create and destroyed by its user. Calls that
+ *  return int: 0 done, > 0 this state cannot be evaluated (the solver takes a smaller
+ *  step), < 0 the plant failed for good. */
+typedef struct gm_dynamics_class {
+    gm_status (*create)(const void *plant, void **motion, gm_error *error);
+    void (*destroy)(void *motion);
+
+    int (*n_states)(const void *motion);
+    /* Begin: gears of *input engaged, flanges at speed[n_flanges] (rad/s; where an
+       engaged path disagrees with the output, the output wins), elastic parts unloaded.
+       Fills x[n_states] and the modes. */
+    gm_status (*start)(void *motion, const gm_motion_input *input, const double *speed,
+                       double *x, gm_error *error);
+    /* Absolute error of each state that matters as little as `relative` of a typical
+       value. */
+    void (*tolerances)(const void *motion, double relative, double *absolute);
+    int (*rates)(void *motion, const gm_motion_input *input, const double *x, double *dx);
+
+    /* d rates / d x, compressed columns: column_start[n_states + 1], row[entries],
+       value[entries]. NULL where the plant has none: the solver takes differences. */
+    int (*entries)(const void *motion);
+    void (*pattern)(const void *motion, int *column_start, int *row);
+    int (*jacobian)(void *motion, const gm_motion_input *input, const double *x,
+                    double *value);
+    /* d rates / d torque of a flange: column[n_states]. */
+    int (*torque_column)(void *motion, const gm_motion_input *input, const double *x,
+                         int flange, double *column);
+    /* Which state is the speed of a flange: the systems around couple to it. */
+    int (*speed_state)(const void *motion, int flange);
+
+    /* Event functions g[n_events]: the solver stops where one changes its sign. */
+    int (*n_events)(const void *motion);
+    int (*events)(void *motion, const gm_motion_input *input, const double *x, double *g);
+    /* Called at such a stop, after a change of commanded gears, and after every accepted
+       step: bring modes to what holds from now on, x may jump. *changed: the solver
+       restarts. */
+    gm_status (*handle)(void *motion, const gm_motion_input *input, double t, double *x,
+                        int *changed, gm_error *error);
+
+    void (*view)(void *motion, const gm_motion_input *input, const double *x,
+                 gm_motion_view *view);
+    int (*n_signals)(const void *motion);
+    gm_motion_signal (*signal)(const void *motion, int i);
+    void (*observe)(void *motion, const gm_motion_input *input, const double *x,
+                    double *value); /* [n_signals] */
+} gm_dynamics_class;
+
+/** A plant that moves; constant, may be shared by threads. */
+typedef struct gm_dynamics {
+    const gm_dynamics_class *is;
+    const void *plant;
+    int n_paths;
+} gm_dynamics;
+
+#ifdef __cplusplus
+}
+#endif
+#endif
