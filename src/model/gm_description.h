@@ -2,7 +2,7 @@
  *
  * The gearset as its file describes it: named parts with dimensions, in SI units. Plain
  * data; read by gm_description_read, which refuses what breaks a rule. The fields of the
- * file, their units and ranges are listed in one table, schema.c.
+ * file, their units and ranges are listed in tables, schema_*.c.
  *
  * Coordinates: x along the shafts, y and z across, z up (gravity is -z). All shafts are
  * parallel to x. Positive rotation is about +x.

@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The tables of the description file: rolling bearings, of shafts and of idling gears.
+ */
+#include "model/schema_fields.h"
+
+#include "model/gm_description.h"
+
+/* clang-format off */
+
+static const gm_choice bearing_types[] = {
+    {"deep_groove_ball", GM_BEARING_DEEP_GROOVE_BALL},
+    {"angular_contact_ball", GM_BEARING_ANGULAR_CONTACT_BALL},
+    {"cylindrical_roller", GM_BEARING_CYLINDRICAL_ROLLER},
+    {"needle_roller", GM_BEARING_NEEDLE_ROLLER},
+    {"tapered_roller", GM_BEARING_TAPERED_ROLLER},
+    {NULL, 0}};
+
+static const gm_choice bearing_frictions[] = {
+    {"none", GM_FRICTION_NONE},
+    {"skf", GM_FRICTION_SKF},
+    {"palmgren", GM_FRICTION_PALMGREN},
+    {NULL, 0}};
+
+#define OWNER gm_bearing_data
+static const gm_field bearing_data_fields[] = {
+    {.key = "type", .type = GM_FIELD_CHOICE, .choices = bearing_types, AT(type),
+     .help = "kind of rolling bearing"},
+    {.key = "friction", .type = GM_FIELD_CHOICE, .choices = bearing_frictions,
+     AT(friction), DEFAULT("skf"),
+     .help = "friction model; none: a support whose friction belongs to another part"},
+    {.key = "designation", .type = GM_FIELD_WORDS, OPTIONAL, AT(designation),
+     .help = "deep groove ball bearings: the catalogue's number, such as \"6206\", in "
+             "place of dimensions"},
+    {.key = "series", .type = GM_FIELD_WORDS, OPTIONAL, AT(series),
+     .help = "row of the SKF friction constants, such as \"62\" or \"22\"; what each "
+             "type needs, and all series, stand above"},
+    {NUMBER("bore_mm", 0, 2000), ABOVE, AT(d), OPTIONAL, .help = "inner diameter d"},
+    {NUMBER("outer_mm", 0, 2000), ABOVE, AT(D), OPTIONAL, .help = "outer diameter D"},
+    {NUMBER("width_mm", 0, 1000), ABOVE, AT(B), OPTIONAL, .help = "width B"},
+    {NUMBER("static_load_N", 0, 1e8), ABOVE, AT(C0), OPTIONAL,
+     .help = "static load rating C0; deep groove ball bearings need it, angular contact "
+             "ones with palmgren and without f1"},
+    {NUMBER("axial_factor", 0, 10), ABOVE, AT(Y), OPTIONAL,
+     ONLY("type", "tapered_roller"),
+     .help = "Y of the catalogue; needed, except with friction none"},
+    {NUMBER("f0", 0, 100), ABOVE, AT(f0), OPTIONAL, ONLY("friction", "palmgren"),
+     .help = "factor of the part without load; default of the type"},
+    {NUMBER("f1", 0, 1), ABOVE, AT(f1), OPTIONAL, ONLY("friction", "palmgren"),
+     .help = "factor of the part with load; default of the type"},
+    END};
+const gm_section gm_schema_bearing_data = {
+    .title = "bearing", .word = "bearing", .help = "Data of one rolling bearing.",
+    .fields = bearing_data_fields};
+#undef OWNER
+
+#define OWNER gm_bearing
+static const gm_field bearing_fields[] = {
+    {.key = "shaft", .type = GM_FIELD_REFERENCE, .section = &gm_schema_shaft, AT(shaft),
+     .help = "the shaft that it carries"},
+    {.key = "on", .type = GM_FIELD_REFERENCE, .section = &gm_schema_shaft, AT(on),
+     OPTIONAL, .help = "housing, or the concentric shaft that holds the other ring"},
+    {NUMBER("position_mm", -5000, 5000), AT(position), .help = "x of its middle"},
+    {.key = "locating", .type = GM_FIELD_BOOLEAN, AT(locating), DEFAULT("false"),
+     .help = "true: takes axial load"},
+    {.key = "data", .type = GM_FIELD_INLINE, .section = &gm_schema_bearing_data,
+     AT(data), .help = ""},
+    {NUMBER("radial_stiffness_N_um", 0, 1e5), ABOVE, AT(radial_stiffness), DEFAULT("300"),
+     .help = "matters where three or more bearings carry a shaft"},
+    {NUMBER("axial_stiffness_N_um", 0, 1e5), ABOVE, AT(axial_stiffness), DEFAULT("100"),
+     .help = "matters where two or more bearings are locating"},
+    END};
+const gm_section gm_schema_bearing = {
+    .title = "bearings", .word = "bearing",
+    .help = "Rolling bearings that carry the shafts. Every shaft needs two, one of them "
+            "locating.",
+    .fields = bearing_fields, .size = sizeof(gm_bearing), .key = GM_KEY_NAME,
+    .label = offsetof(gm_bearing, id)};
+#undef OWNER
+/* clang-format on */
