@@ -184,7 +184,7 @@ static contact_state slide(const gm_balance *b, int body, int on)
 
 static contact_state mesh_slide(const gm_balance *b, const gm_mesh_element *mesh)
 {
-    contact_state s = slide(b, mesh->row.body[0], GM_HOUSING);
+    contact_state s = slide(b, mesh->row.body[0], mesh->carrier);
     s.sign *= mesh->row.g[0] < 0.0 ? -1.0 : 1.0;
     s.speed *= fabs(mesh->row.g[0]) / mesh->cos_alpha_wt;
     return s;
@@ -268,14 +268,16 @@ int gm_balance_entries(const gm_balance *balance)
 
 /* Friction force of a mesh along its line of action and its derivative by F. With f on
  * both sides of the mean force, the entering power loses exactly the share kappa:
- * (F - f/2)/(F + f/2) = 1 - kappa. */
+ * (F - f/2)/(F + f/2) = 1 - kappa. Parallel contacts share the force equally. */
 static double mesh_friction(const gm_balance *b, int m, double F, double *d_force)
 {
+    const gm_mesh_element *mesh = &b->gearset->meshes[m];
     gm_mesh_share s =
-        gm_mesh_loss_share(&b->gearset->meshes[m].law, fabs(F), b->mesh[m].speed);
+        gm_mesh_loss_share(&mesh->law, fabs(F) / mesh->contacts, b->mesh[m].speed);
     double q = 2.0 / (2.0 - s.kappa);
+    double slope = s.d_force / mesh->contacts;
     if (d_force)
-        *d_force = (F < 0.0 ? -1.0 : 1.0) * (s.kappa * q + fabs(F) * s.d_force * q * q);
+        *d_force = (F < 0.0 ? -1.0 : 1.0) * (s.kappa * q + fabs(F) * slope * q * q);
     return fabs(F) * s.kappa * q;
 }
 
@@ -294,10 +296,10 @@ static void add_friction(gm_balance *b, const double *x, double *torque)
 {
     const gm_gearset *g = b->gearset;
     for (int m = 0; m < g->n_meshes; m++) {
-        const gm_row *row = &g->meshes[m].row;
-        double f = 0.5 * b->mesh[m].sign * mesh_friction(b, m, x[m], NULL);
-        torque[row->body[0]] -= row->g[0] * f;
-        torque[row->body[1]] += row->g[1] * f;
+        const gm_row *roll = &g->meshes[m].roll;
+        double f = b->mesh[m].sign * mesh_friction(b, m, x[m], NULL);
+        for (int k = 0; k < roll->n; k++)
+            torque[roll->body[k]] -= roll->g[k] * f;
     }
     for (int i = 0; i < g->n_bearings; i++) {
         const gm_bearing_element *e = &g->bearings[i];
@@ -360,11 +362,11 @@ static void fill_jacobian(gm_balance *b, const double *x)
     int n = b->rows.n_bodies;
     memcpy(b->jacobian, b->rows.balance, (size_t)n * (size_t)n * sizeof *b->jacobian);
     for (int m = 0; m < g->n_meshes; m++) {
-        const gm_row *row = &g->meshes[m].row;
+        const gm_row *roll = &g->meshes[m].roll;
         double d;
         (void)mesh_friction(b, m, x[m], &d);
-        add_entry(b, row->body[0], m, -0.5 * b->mesh[m].sign * row->g[0] * d);
-        add_entry(b, row->body[1], m, 0.5 * b->mesh[m].sign * row->g[1] * d);
+        for (int k = 0; k < roll->n; k++)
+            add_entry(b, roll->body[k], m, -b->mesh[m].sign * roll->g[k] * d);
     }
     for (int i = 0; i < g->n_bearings; i++) {
         const gm_bearing_element *e = &g->bearings[i];
@@ -427,7 +429,7 @@ static void mesh_losses(gm_balance *b, const double *x, gm_element_loss *losses)
                                       .name = g->description->meshes[m].id.name,
                                       .power = mesh_friction(b, m, x[m], NULL) * along,
                                       .speed = b->mesh[m].speed,
-                                      .radial = fabs(x[m])};
+                                      .radial = fabs(x[m]) / g->meshes[m].contacts};
     }
 }
 

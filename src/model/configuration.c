@@ -44,7 +44,8 @@ static gm_status collect(const gm_gearset *gearset, const int *gear,
             return gm_fail(error, GM_ERR_ARGUMENT, "%s: path '%s' has no gear %d",
                            d->file, d->paths[p].id.name, gear[p]);
         rows->lock[rows->n_locks++] =
-            (gm_row){.body = {gearset->wheel_body[g->wheel], d->wheels[g->wheel].shaft},
+            (gm_row){.n = 2,
+                     .body = {gearset->wheel_body[g->wheel], d->wheels[g->wheel].shaft},
                      .g = {1.0, -1.0}};
     }
     rows->n_bodies = gearset->n_bodies;
@@ -64,8 +65,8 @@ static void fill_balance(const gm_gearset *gearset, gm_configuration_rows *rows)
     int n = rows->n_bodies;
     for (int e = 0; e < rows->n_rows; e++) {
         const gm_row *row = row_at(gearset, rows, e);
-        for (int side = 0; side < 2; side++)
-            rows->balance[row->body[side] * n + e] -= row->g[side];
+        for (int k = 0; k < row->n; k++)
+            rows->balance[row->body[k] * n + e] -= row->g[k];
     }
     for (int i = 0; i < rows->n_independent; i++)
         rows->balance[gm_flange_body(gearset, rows->flange[i]) * n + rows->n_rows + i] =

@@ -62,6 +62,28 @@ static gm_contact make_contact(const gm_description *d, const gm_mesh *mesh,
     };
 }
 
+/* Rows of a mesh: along the line of action, and of its rolling speed. */
+static void make_rows(const gm_gearset *gearset, const gm_mesh *mesh,
+                      gm_mesh_element *element)
+{
+    gm_row *row = &element->row, *roll = &element->roll;
+    for (int side = 0; side < 2; side++) {
+        const gm_wheel *wheel = &gearset->description->wheels[mesh->wheel[side]];
+        double sign = wheel->internal ? -1.0 : 1.0;
+        row->body[side] = gearset->wheel_body[mesh->wheel[side]];
+        row->g[side] = 0.5 * sign * fabs(element->pair.d_b[side]);
+    }
+    row->n = 2;
+    row->body[2] = element->carrier;
+    row->g[2] = -(row->g[0] + row->g[1]);
+    if (element->carrier != GM_HOUSING)
+        row->n = 3;
+    *roll = *row;
+    roll->g[0] = 0.5 * row->g[0];
+    roll->g[1] = -0.5 * row->g[1];
+    roll->g[2] = -(roll->g[0] + roll->g[1]);
+}
+
 static void make_mesh(gm_gearset *gearset, int m)
 {
     const gm_description *d = gearset->description;
@@ -72,13 +94,11 @@ static void make_mesh(gm_gearset *gearset, int m)
     double roughness =
         0.5 * (d->wheels[mesh->wheel[0]].roughness + d->wheels[mesh->wheel[1]].roughness);
     element->law = gm_mesh_law_make(mesh, &element->pair, roughness, &gearset->oil);
-    for (int side = 0; side < 2; side++) {
-        const gm_wheel *wheel = &d->wheels[mesh->wheel[side]];
-        element->row.body[side] = gearset->wheel_body[mesh->wheel[side]];
-        element->row.g[side] =
-            0.5 * fabs(element->pair.d_b[side]) * (wheel->internal ? -1.0 : 1.0);
+    element->carrier = GM_HOUSING;
+    element->contacts = 1;
+    make_rows(gearset, mesh, element);
+    for (int side = 0; side < 2; side++)
         element->contact[side] = make_contact(d, mesh, &element->pair, side);
-    }
 }
 
 static gm_status make_meshes(gm_gearset *gearset, gm_error *error)

@@ -17,16 +17,23 @@ typedef struct gm_body {
     double mass;    /* kg */
 } gm_body;
 
-/** A row of the assembly: deflection rate g[0] w(body[0]) + g[1] w(body[1]). */
+/** A row of the assembly: deflection rate sum g[k] w(body[k]), k < n. A mesh has two
+ *  bodies, seen from a carrier three; a brake against the housing has one. */
 typedef struct gm_row {
-    int body[2];
-    double g[2];
+    int n;
+    int body[3];
+    double g[3];
 } gm_row;
 
-/** A mesh: base radii as row, friction acts on the rolling speed h . w with
- *  h = (g0, -g1)/2, which in rigid motion is the speed along the line of action. */
+/** A mesh: base radii as row. A mesh with a planet gear is seen from the carrier c,
+ *  g0 (w_a - w_c) + g1 (w_b - w_c) = 0, and stands for as many equal contacts as there
+ *  are planets: a force F of the row is F / contacts on each. Friction acts on the
+ *  rolling speed, in rigid motion the speed along the line of action:
+ *  (g0 (w_a - w_c) - g1 (w_b - w_c)) / 2. */
 typedef struct gm_mesh_element {
-    gm_row row;
+    gm_row row, roll;
+    int carrier;  /* body from which it is seen; GM_HOUSING: at rest */
+    int contacts; /* >= 1 */
     gm_pair pair;
     gm_mesh_law law;
     double cos_alpha_wt;

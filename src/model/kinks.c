@@ -37,9 +37,12 @@ static int find_kinks(const gm_gearset *gearset, int p, int number, mesh_kink ki
     double ratio = rows.speed_of[input * rows.n_independent];
     for (int m = 0; m < gearset->n_meshes && count < n_max; m++) {
         const gm_mesh_element *mesh = &gearset->meshes[m];
-        double force = fabs(rows.inverse[m * n + input]);
-        double along = rows.speed_of[mesh->row.body[0] * rows.n_independent] *
-                       mesh->row.g[0] / (ratio * mesh->cos_alpha_wt);
+        double force = fabs(rows.inverse[m * n + input]) / mesh->contacts;
+        double along = 0.0;
+        for (int k = 0; k < mesh->roll.n; k++)
+            along +=
+                mesh->roll.g[k] * rows.speed_of[mesh->roll.body[k] * rows.n_independent];
+        along /= ratio * mesh->cos_alpha_wt;
         double x = kink(&mesh->law, force, fabs(along) * mesh->law.sliding_ratio);
         if (force > 1e-6 && x > 0.0)
             found[count++] = x;
