@@ -18,7 +18,7 @@ FILES = sorted((ROOT / "examples").glob("*.yaml"))
 
 
 def test_there_are_examples():
-    assert {"dct7.yaml", "mt5.yaml"} <= {file.name for file in FILES}
+    assert {"dct7.yaml", "dct6_wet.yaml", "mt5.yaml"} <= {file.name for file in FILES}
 
 
 @pytest.fixture(scope="module", params=FILES, ids=lambda file: file.stem)
