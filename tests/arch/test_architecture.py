@@ -22,6 +22,7 @@ ARROWS = {
     "solve": {"plant", "base"},
     "sweep": {"plant", "solve", "map", "base"},
     "bake": {"map", "core", "base"},
+    "vehicle": {"plant", "solve", "model", "base"},
     "fmu": {"core"},
 }
 # A foreign library is the business of these rooms only.

@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The vehicle around a gearset: engine, dual-mass flywheel, clutches, driveshafts, car,
+ * road, brakes and driver. The same for a detailed and for a reduced gearset.
+ *
+ *   J_e dw_e/dt = T_e - T_dmf              dT_e/dt = (T_target - T_e) / lag
+ *   J_d dw_d/dt = T_dmf - sum_p T_p        T_dmf = k twist + d (w_e - w_d)
+ *   T_p = capacity_p tanh((w_d - w_p) / slip)           into path p of the gearset
+ *   T_s = k twist + d (w_o - v / r)                     out of the gearset's output
+ *   (m + J_w / r2) dv/dt = T_s / r - rolling - drag - grade - brake
+ *
+ * w_o counts positive where the car drives forward in a forward gear.
+ */
+#ifndef GM_VEHICLE_H
+#define GM_VEHICLE_H
+
+#include "base/gm_status.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define GM_VEHICLE_MAX_POINTS 16
+
+/** Full-load torque over speed: linear between points, constant beyond. */
+typedef struct gm_full_load {
+    int n;
+    double speed[GM_VEHICLE_MAX_POINTS];  /* rad/s, increasing */
+    double torque[GM_VEHICLE_MAX_POINTS]; /* N.m */
+} gm_full_load;
+
+typedef struct gm_vehicle {
+    double mass;                /* kg */
+    double wheel_radius;        /* dynamic, m */
+    double wheel_inertia;       /* all wheels, kg.m2 */
+    double rolling_coefficient; /* smoothed at standstill with tanh(v / 0.1 m/s) */
+    double drag_area;           /* c_d A, m2 */
+    double air_density;         /* kg/m3 */
+    double shaft_stiffness;     /* both driveshafts at the output flange, N.m/rad */
+    double shaft_damping;       /* N.m.s/rad */
+    double engine_inertia;      /* with the primary side of the flywheel, kg.m2 */
+    double flywheel_stiffness;  /* N.m/rad */
+    double flywheel_damping;    /* N.m.s/rad */
+    double drum_inertia;        /* secondary side and clutch drum, kg.m2 */
+    double clutch_slip;         /* speed at which a clutch carries 76 %, rad/s */
+    double launch_speed;        /* engine speed at which the clutch begins, rad/s */
+    double launch_gain;         /* capacity = gain (w - launch_speed)^2, N.m.s2/rad2 */
+    double clutch_torque_max;   /* N.m */
+    gm_full_load full_load;     /* of the engine */
+    double drag_torque, drag_per_speed; /* engine without fuel: N.m, N.m.s/rad */
+    double torque_lag;                  /* of the engine, s */
+    double idle_speed, idle_gain;       /* governor: gain (idle_speed - w) at least */
+    double driver_gain;                 /* N/(m/s) */
+    double driver_integral;             /* N/m */
+    double driver_windup;               /* largest integral part, N */
+    double driver_mass_factor;          /* feed-forward: factor on m a */
+    double shift_time;                  /* clutch-to-clutch, s */
+    double preselect_time;              /* before the shift, s */
+    double interrupt_time;              /* one clutch: open, before and after, s */
+    double gravity;                     /* m/s2 */
+} gm_vehicle;
+
+/** A C-segment car: mass, radius, inertia, rolling resistance and drag of a Volkswagen
+ *  Golf 1.5 TSI (NREL FASTSim vehicle database); the rest are engineering assumptions. */
+gm_vehicle gm_vehicle_reference(void);
+
+/** GM_ERR_ARGUMENT names the field that is not finite, or not positive where it must be.
+ */
+GM_NODISCARD gm_status gm_vehicle_check(const gm_vehicle *vehicle, gm_error *error);
+
+/* ---- laws, with derivatives where the Jacobian needs them ---- */
+
+/** Engine torque at full load [N.m]; *slope: its derivative by w. */
+double gm_full_load_torque(const gm_full_load *curve, double w, double *slope);
+
+/** Torque of the engine without fuel [N.m], negative at w > 0, smooth at rest. */
+double gm_engine_drag(const gm_vehicle *v, double w, double *slope);
+
+/** Torque that the engine is asked for: between drag and full load, and what the idle
+ *  governor wants at least. *d_demand, *d_w: derivatives. */
+double gm_engine_target(const gm_vehicle *v, double demand, double w, double *d_demand,
+                        double *d_w);
+
+/** Capacity of a closing or closed clutch over engine speed [N.m]. */
+double gm_clutch_capacity(const gm_vehicle *v, double w, double *slope);
+
+/** Rolling resistance and air drag [N] at speed v [m/s]. */
+double gm_road_load(const gm_vehicle *vehicle, double v, double *slope);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

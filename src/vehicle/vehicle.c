@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+#include "vehicle/gm_vehicle.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#define RPM (3.14159265358979323846 / 30.0)
+#define REST_SPEED 0.1 /* m/s, over which rolling resistance changes its direction */
+#define REST_OMEGA 5.0 /* rad/s, the same for the engine's drag: it never runs there */
+
+gm_vehicle gm_vehicle_reference(void)
+{
+    return (gm_vehicle){
+        .mass = 1416.0,
+        .wheel_radius = 0.316,
+        .wheel_inertia = 3.26,
+        .rolling_coefficient = 0.009,
+        .drag_area = 0.6078,
+        .air_density = 1.2,
+        .shaft_stiffness = 6000.0,
+        .shaft_damping = 40.0,
+        .engine_inertia = 0.13,
+        .flywheel_stiffness = 800.0,
+        .flywheel_damping = 4.0,
+        .drum_inertia = 0.05,
+        .clutch_slip = 0.5,
+        .launch_speed = 82.0,
+        .launch_gain = 0.04,
+        .clutch_torque_max = 300.0,
+        .full_load = {2, {750.0 * RPM, 1500.0 * RPM}, {100.0, 200.0}},
+        .drag_torque = 12.0,
+        .drag_per_speed = 0.02,
+        .torque_lag = 0.08,
+        .idle_speed = 80.0,
+        .idle_gain = 2.5,
+        .driver_gain = 1500.0,
+        .driver_integral = 300.0,
+        .driver_windup = 2500.0,
+        .driver_mass_factor = 1.06,
+        .shift_time = 0.4,
+        .preselect_time = 1.5,
+        .interrupt_time = 0.3,
+        .gravity = 9.81,
+    };
+}
+
+/* ---- check ---- */
+
+typedef struct rule {
+    const char *name;
+    size_t offset;
+    int may_be_zero;
+} rule;
+
+#define POSITIVE(member)                                                                 \
+    {                                                                                    \
+#member, offsetof(gm_vehicle, member), 0                                         \
+    }
+#define NOT_NEGATIVE(member)                                                             \
+    {                                                                                    \
+#member, offsetof(gm_vehicle, member), 1                                         \
+    }
+
+static const rule rules[] = {
+    POSITIVE(mass),
+    POSITIVE(wheel_radius),
+    NOT_NEGATIVE(wheel_inertia),
+    NOT_NEGATIVE(rolling_coefficient),
+    NOT_NEGATIVE(drag_area),
+    NOT_NEGATIVE(air_density),
+    POSITIVE(shaft_stiffness),
+    NOT_NEGATIVE(shaft_damping),
+    POSITIVE(engine_inertia),
+    POSITIVE(flywheel_stiffness),
+    NOT_NEGATIVE(flywheel_damping),
+    POSITIVE(drum_inertia),
+    POSITIVE(clutch_slip),
+    POSITIVE(launch_speed),
+    POSITIVE(launch_gain),
+    POSITIVE(clutch_torque_max),
+    NOT_NEGATIVE(drag_torque),
+    NOT_NEGATIVE(drag_per_speed),
+    POSITIVE(torque_lag),
+    POSITIVE(idle_speed),
+    POSITIVE(idle_gain),
+    POSITIVE(driver_gain),
+    NOT_NEGATIVE(driver_integral),
+    NOT_NEGATIVE(driver_windup),
+    NOT_NEGATIVE(driver_mass_factor),
+    POSITIVE(shift_time),
+    POSITIVE(preselect_time),
+    POSITIVE(interrupt_time),
+    POSITIVE(gravity),
+};
+
+static gm_status check_full_load(const gm_full_load *curve, gm_error *error)
+{
+    if (curve->n < 1 || curve->n > GM_VEHICLE_MAX_POINTS)
+        return gm_fail(error, GM_ERR_ARGUMENT,
+                       "the full-load curve has 1 to %d points; found %d",
+                       GM_VEHICLE_MAX_POINTS, curve->n);
+    for (int i = 0; i < curve->n; i++)
+        if (!isfinite(curve->speed[i]) || !(curve->torque[i] > 0.0) ||
+            !isfinite(curve->torque[i]) ||
+            (i > 0 && !(curve->speed[i] > curve->speed[i - 1])))
+            return gm_fail(error, GM_ERR_ARGUMENT,
+                           "the full-load curve has increasing speeds and positive "
+                           "torques; found %g rad/s, %g N.m",
+                           curve->speed[i], curve->torque[i]);
+    return GM_OK;
+}
+
+gm_status gm_vehicle_check(const gm_vehicle *vehicle, gm_error *error)
+{
+    for (size_t i = 0; i < sizeof rules / sizeof rules[0]; i++) {
+        double x = *(const double *)((const char *)vehicle + rules[i].offset);
+        if (!isfinite(x) || x < 0.0 || (x == 0.0 && !rules[i].may_be_zero))
+            return gm_fail(error, GM_ERR_ARGUMENT, "%s of the vehicle is %g, must be %s",
+                           rules[i].name, x,
+                           rules[i].may_be_zero ? "0 or more" : "more than 0");
+    }
+    return check_full_load(&vehicle->full_load, error);
+}
+
+/* ---- laws ---- */
+
+double gm_full_load_torque(const gm_full_load *curve, double w, double *slope)
+{
+    *slope = 0.0;
+    if (w <= curve->speed[0])
+        return curve->torque[0];
+    for (int i = 1; i < curve->n; i++)
+        if (w < curve->speed[i]) {
+            *slope = (curve->torque[i] - curve->torque[i - 1]) /
+                     (curve->speed[i] - curve->speed[i - 1]);
+            return curve->torque[i - 1] + *slope * (w - curve->speed[i - 1]);
+        }
+    return curve->torque[curve->n - 1];
+}
+
+double gm_engine_drag(const gm_vehicle *v, double w, double *slope)
+{
+    double s = tanh(w / REST_OMEGA);
+    *slope = -v->drag_torque * (1.0 - s * s) / REST_OMEGA - v->drag_per_speed;
+    return -v->drag_torque * s - v->drag_per_speed * w;
+}
+
+double gm_engine_target(const gm_vehicle *v, double demand, double w, double *d_demand,
+                        double *d_w)
+{
+    double full_slope, drag_slope;
+    double full = gm_full_load_torque(&v->full_load, w, &full_slope);
+    double drag = gm_engine_drag(v, w, &drag_slope);
+    double idle = v->idle_gain * (v->idle_speed - w);
+    double target = demand;
+    *d_demand = 1.0;
+    *d_w = 0.0;
+    if (target < drag)
+        target = drag, *d_demand = 0.0, *d_w = drag_slope;
+    if (target < idle)
+        target = idle, *d_demand = 0.0, *d_w = -v->idle_gain;
+    if (target > full)
+        target = full, *d_demand = 0.0, *d_w = full_slope;
+    return target;
+}
+
+double gm_clutch_capacity(const gm_vehicle *v, double w, double *slope)
+{
+    double x = w - v->launch_speed;
+    *slope = 0.0;
+    if (x <= 0.0)
+        return 0.0;
+    double capacity = v->launch_gain * x * x;
+    if (capacity >= v->clutch_torque_max)
+        return v->clutch_torque_max;
+    *slope = 2.0 * v->launch_gain * x;
+    return capacity;
+}
+
+double gm_road_load(const gm_vehicle *vehicle, double v, double *slope)
+{
+    double s = tanh(v / REST_SPEED);
+    double rolling = vehicle->rolling_coefficient * vehicle->mass * vehicle->gravity;
+    double drag = 0.5 * vehicle->air_density * vehicle->drag_area;
+    *slope = rolling * (1.0 - s * s) / REST_SPEED + 2.0 * drag * fabs(v);
+    return rolling * s + drag * v * fabs(v);
+}
