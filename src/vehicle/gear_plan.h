@@ -4,9 +4,9 @@
  * to and how much of the clutch capacity each path gets, over time. Both gearsets under
  * comparison get the same commands.
  *
- * Two paths: the next gear is preselected on the waiting path, then the clutches hand over
- * within shift_time. A shift within one path opens its clutch for interrupt_time, changes
- * the gear, waits as long for the synchroniser, and closes it again.
+ * Two paths: the next gear is preselected on the waiting path, then the clutches hand
+ * over within shift_time. A shift within one path opens its clutch for interrupt_time,
+ * changes the gear, waits as long for the synchroniser, and closes it again.
  */
 #ifndef GEAR_PLAN_H
 #define GEAR_PLAN_H
