@@ -96,12 +96,30 @@ typedef enum gm_mesh_loss_model {
     GM_MESH_ISO14179_2
 } gm_mesh_loss_model;
 
+typedef enum gm_contact_model {
+    GM_CONTACT_FILM,  /* an oil film: entered softly, damped also in the gap */
+    GM_CONTACT_DRY,   /* dry flanks: no force in the gap, no pull */
+    GM_CONTACT_LINEAR /* no gap (not in the file: shafts) */
+} gm_contact_model;
+
+/** What happens between flanks: of a mesh, or of a synchroniser's dogs. */
+typedef struct gm_flanks {
+    gm_contact_model model;
+    double stiffness;     /* mesh: along the line of action, N/m; dogs: N.m/rad; NAN: mesh
+                             by ISO 6336-1 */
+    double damping_ratio; /* of the parts it couples */
+    double backlash;      /* mesh: normal, m; dogs: rad; NAN: mesh by ISO/TR 10064-2 */
+    double entry;         /* depth of soft entry, m; dogs: rad */
+    double film;          /* damping in the gap as a share of that in contact */
+} gm_flanks;
+
 typedef struct gm_mesh {
     gm_label id;
     int wheel[2];
     gm_mesh_loss_model loss;
     double efficiency;        /* constant */
     double minimum_line_load; /* lower limit of F_bt/b in the friction coefficient, N/m */
+    gm_flanks flanks;
 } gm_mesh;
 
 typedef struct gm_bearing {
@@ -145,6 +163,7 @@ typedef struct gm_synchroniser {
     int *wheels;        /* [n_wheels] idling gears on that shaft */
     double cone_torque; /* capacity at the cone, N.m */
     double cone_radius, cone_width, cone_clearance; /* open cone drag, m */
+    gm_flanks dogs;
 } gm_synchroniser;
 
 typedef struct gm_path_gear {

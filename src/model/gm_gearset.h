@@ -64,6 +64,13 @@ int gm_gearset_kink_torques(const gm_gearset *gearset, int p, int number, int n_
  *  on the path jumps. Ascending, each once, at most n_max. Returns their number. */
 int gm_gearset_drag_lines(const gm_gearset *gearset, int p, int n_max, double *ratio);
 
+/** How path p in gear `number` gives way between its flange and the held output, the
+ *  other path in neutral: 1/k = sum F_e^2 / k_e and lash = sum |F_e| j_e over meshes,
+ *  locks and compliant shafts with their forces F_e at 1 N.m. GM_ERR_ARGUMENT: the path
+ *  has no such gear; GM_ERR_MODEL; GM_ERR_MEMORY. */
+GM_NODISCARD gm_status gm_gearset_compliance(const gm_gearset *gearset, int p, int number,
+                                             gm_compliance *compliance, gm_error *error);
+
 /** Workspace of the steady balance for one thread; keeps what does not change while the
  *  configuration and the speeds stay. */
 typedef struct gm_balance gm_balance;

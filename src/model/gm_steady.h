@@ -32,4 +32,11 @@ typedef struct gm_kinematics {
     double inertia[GM_MAX_INPUT_PATHS]; /* turns with path p, all in neutral, kg.m2 */
 } gm_kinematics;
 
+/** How a path gives way between its flange and the held output, in one gear. */
+typedef struct gm_compliance {
+    double stiffness; /* N.m/rad at the path's flange, flanks in contact, > 0 */
+    double damping;   /* N.m.s/rad, in parallel with it */
+    double lash;      /* rad at the path's flange, from flank to flank, >= 0 */
+} gm_compliance;
+
 #endif

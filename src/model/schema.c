@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
  * The description file as a whole, the units of its keys, and how tables are searched.
- * The tables of its sections: schema_oil.c, _shafts.c, _bearings.c, _gears.c, _paths.c.
+ * The tables of its sections: schema_oil.c, _shafts.c, _bearings.c, _gears.c,
+ * _flanks.c, _paths.c.
  */
 #include "model/schema.h"
 
@@ -24,6 +25,7 @@ static const gm_unit units[] = {
     {"_deg",     "deg",   0.0,    PI,   180.0},
     {"_rpm",     "rpm",   0.0,    PI,   30.0},
     {"_Nm",      "N.m",   0.0,    1.0,  1.0},
+    {"_Nm_rad",  "N.m/rad", 0.0,  1.0,  1.0},
     {"_N",       "N",     0.0,    1.0,  1.0},
     {"_N_um",    "N/um",  0.0,    1e6,  1.0},
     {"_N_mm",    "N/mm",  0.0,    1e3,  1.0},

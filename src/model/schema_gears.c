@@ -68,6 +68,8 @@ static const gm_field mesh_fields[] = {
      .fixed_count = 2, .help = "the two gears that mesh"},
     {.key = "loss", .type = GM_FIELD_GROUP, .section = &mesh_loss_section, .offset = 0,
      .need = GM_NEED_DEFAULT, .help = "how its loss is computed"},
+    {.key = "flanks", .type = GM_FIELD_GROUP, .section = &gm_schema_flanks, AT(flanks),
+     .need = GM_NEED_DEFAULT, .help = "stiffness, damping and backlash"},
     END};
 const gm_section gm_schema_mesh = {
     .title = "meshes", .word = "mesh", .help = "Pairs of gears that mesh.",

@@ -23,6 +23,8 @@ static const gm_field synchroniser_fields[] = {
      .help = "length of the cone"},
     {NUMBER("cone_clearance_mm", 0, 50), ABOVE, AT(cone_clearance),
      .help = "oil film when open"},
+    {.key = "dogs", .type = GM_FIELD_GROUP, .section = &gm_schema_dogs, AT(dogs),
+     .need = GM_NEED_DEFAULT, .help = "stiffness, damping and backlash when locked"},
     END};
 const gm_section gm_schema_synchroniser = {
     .title = "synchronisers", .word = "synchroniser",

@@ -33,7 +33,8 @@ typedef struct gm_motion_view {
     double acceleration[GM_MAX_FLANGES]; /* rad/s2 */
     double loss_power;                   /* W, >= 0 */
     double stored_energy;                /* J: kinetic and elastic */
-    int state[GM_MAX_INPUT_PATHS];       /* gm_path_mode of core/gm_reduced.h */
+    double jump_loss; /* J, >= 0: given up by stored energy where x jumped, since start */
+    int state[GM_MAX_INPUT_PATHS]; /* gm_path_mode of core/gm_reduced.h */
 } gm_motion_view;
 
 /** One quantity inside the plant that can be recorded: of a body, a mesh, a bearing. */

@@ -56,6 +56,11 @@ static void make_parts(reducer *r)
     r->wheels[1].bearing = bearing("", 1, 0.0, 0).data;
     r->meshes[0] = (gm_mesh){
         .id = {"stage", 3}, .wheel = {0, 1}, .loss = GM_MESH_CONSTANT, .efficiency = 1.0};
+    r->meshes[0].flanks = (gm_flanks){.stiffness = (double)NAN,
+                                      .damping_ratio = 0.07,
+                                      .backlash = (double)NAN,
+                                      .entry = 4e-6,
+                                      .film = 0.05};
     r->bearings[0] = bearing("input_a", 0, 0.0, 1);
     r->bearings[1] = bearing("input_b", 0, 0.160, 0);
     r->bearings[2] = bearing("output_a", 1, 0.0, 1);
@@ -64,6 +69,11 @@ static void make_parts(reducer *r)
     r->locked_wheel = 1;
     r->synchroniser = (gm_synchroniser){
         .shaft = 1, .n_wheels = 1, .wheels = &r->locked_wheel, .cone_torque = 49.0};
+    r->synchroniser.dogs = (gm_flanks){.stiffness = 2e5,
+                                       .damping_ratio = 0.1,
+                                       .backlash = 5e-3,
+                                       .entry = 3e-4,
+                                       .film = 0.05};
 }
 
 void reducer_make(reducer *r)

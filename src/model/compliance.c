@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * How a path gives way: its flange turned against the held output. The row forces F_e at
+ * 1 N.m follow from statics alone, without friction; virtual work then gives
+ *
+ *   1/k = sum F_e^2 / k_e,   lash = sum |F_e| j_e
+ *
+ * and equal dissipation at slow motion, where every row takes its static share of the
+ * rate, d / k^2 = sum d_e (F_e / k_e)^2.
+ */
+#include "model/stiffness.h"
+
+#include "base/alloc.h"
+
+#include <math.h>
+
+typedef struct sums {
+    double flexibility, dissipation, lash;
+} sums;
+
+static void add_row(sums *s, const gm_contact_law *law, double F)
+{
+    s->flexibility += F * F / law->stiffness;
+    s->dissipation += law->damping * F * F / (law->stiffness * law->stiffness);
+    s->lash += 2.0 * fabs(F) * law->gap;
+}
+
+static const gm_flanks *dogs_of(const gm_description *d, int wheel)
+{
+    for (int s = 0; s < d->n_synchronisers; s++)
+        for (int k = 0; k < d->synchronisers[s].n_wheels; k++)
+            if (d->synchronisers[s].wheels[k] == wheel)
+                return &d->synchronisers[s].dogs;
+    return NULL;
+}
+
+static int locked_wheel(const gm_path_part *path, int number)
+{
+    for (int i = 0; i < path->n_gears; i++)
+        if (path->gears[i].number == number)
+            return path->gears[i].wheel;
+    return -1;
+}
+
+static void add_rows(const gm_gearset *gearset, const gm_configuration_rows *rows, int p,
+                     int number, const double *inertia, sums *s)
+{
+    const gm_description *d = gearset->description;
+    int input = gm_flange_body(gearset, 1 + p);
+    for (int m = 0; m < gearset->n_meshes; m++) {
+        double mass = gm_row_reduced_mass(&gearset->meshes[m].row, inertia);
+        gm_contact_law law = gm_mesh_contact_law(gearset, m, mass);
+        add_row(s, &law, rows->inverse[m * rows->n_bodies + input]);
+    }
+    const gm_flanks *dogs = dogs_of(d, locked_wheel(&d->paths[p], number));
+    double mass = gm_row_reduced_mass(&rows->lock[0], inertia);
+    gm_contact_law law = gm_flanks_law(dogs, dogs->stiffness, dogs->backlash, mass);
+    add_row(s, &law, rows->inverse[gearset->n_meshes * rows->n_bodies + input]);
+}
+
+gm_status gm_gearset_compliance(const gm_gearset *gearset, int p, int number,
+                                gm_compliance *compliance, gm_error *error)
+{
+    int gear[GM_MAX_INPUT_PATHS] = {0};
+    gear[p] = number;
+    if (number == 0)
+        return gm_fail(error, GM_ERR_ARGUMENT, "compliance is that of a gear, not of 0");
+    gm_configuration_rows rows;
+    gm_status status = gm_configuration_rows_make(gearset, gear, &rows, error);
+    if (status != GM_OK)
+        return status;
+    double *inertia = gm_calloc((size_t)gearset->n_bodies, sizeof *inertia);
+    if (!inertia) {
+        gm_configuration_rows_clear(&rows);
+        return gm_fail(error, GM_ERR_MEMORY, "out of memory");
+    }
+    for (int b = 0; b < gearset->n_bodies; b++)
+        inertia[b] = gearset->bodies[b].inertia;
+    sums s = {0.0, 0.0, 0.0};
+    add_rows(gearset, &rows, p, number, inertia, &s);
+    double k = 1.0 / s.flexibility;
+    *compliance = (gm_compliance){k, k * k * s.dissipation, s.lash};
+    gm_free(inertia);
+    gm_configuration_rows_clear(&rows);
+    return GM_OK;
+}
