@@ -3,7 +3,8 @@
 
 static gm_reduced_params params_of(const gm_component *c)
 {
-    gm_reduced_params params = {.loss_scale = c->value[GM_LOSS_SCALE][0].real};
+    gm_reduced_params params = {.fidelity = c->value[GM_FIDELITY][0].integer,
+                                .loss_scale = c->value[GM_LOSS_SCALE][0].real};
     for (int p = 0; p < GM_MAX_PATHS; p++)
         params.sync_torque[p] = c->value[GM_PATH_SYNC_TORQUE][p].real;
     return params;
@@ -54,6 +55,7 @@ static void publish(const gm_reduced_map *map, gm_component *c)
     for (int p = 0; p < map->n_paths; p++) {
         c->value[GM_PATH_PHI][p].real = s->path[p].phi;
         c->value[GM_PATH_W][p].real = s->path[p].w;
+        c->value[GM_PATH_TWIST][p].real = s->path[p].twist;
         c->value[GM_PATH_STATE][p].integer = s->path[p].mode;
         c->value[GM_PATH_GEAR_REFUSED][p].integer = (c->flags & refused[p]) != 0;
     }
@@ -74,8 +76,10 @@ int gm_component_start(const gm_reduced_map *map, gm_component *c)
     state.phi_o = c->value[GM_OUTPUT_PHI][0].real;
     state.work = c->value[GM_WORK][0].real;
     state.loss_energy = c->value[GM_LOSS_ENERGY][0].real;
-    for (int p = 0; p < map->n_paths; p++)
+    for (int p = 0; p < map->n_paths; p++) {
         state.path[p].phi = c->value[GM_PATH_PHI][p].real;
+        state.path[p].twist = c->value[GM_PATH_TWIST][p].real;
+    }
     c->state = state;
     c->flags = flags;
     c->start_pending = false;
@@ -129,9 +133,12 @@ static bool evaluate(const gm_reduced_map *map, gm_component *c)
     c->value[GM_OUTPUT_LOSS_TORQUE][0].real = out.output_loss_torque;
     c->value[GM_LOSS_POWER][0].real = out.loss_power;
     c->value[GM_KINETIC_ENERGY][0].real = out.kinetic_energy;
+    c->value[GM_ELASTIC_ENERGY][0].real = out.elastic_energy;
+    c->value[GM_OUTPUT_INERTIA][0].real = out.inertia_o;
     c->value[GM_OUT_OF_MAP][0].integer = ((flags | c->flags) & GM_FLAG_OUT_OF_MAP) != 0;
     for (int p = 0; p < map->n_paths; p++) {
         c->value[GM_PATH_A][p].real = out.a[p];
+        c->value[GM_PATH_INERTIA][p].real = out.inertia[p];
         c->value[GM_PATH_LOSS_TORQUE][p].real = out.path_loss_torque[p];
     }
     c->outputs_pending = false;
@@ -146,6 +153,9 @@ static bool is_evaluated(gm_variable_id id)
     case GM_OUTPUT_LOSS_TORQUE:
     case GM_LOSS_POWER:
     case GM_KINETIC_ENERGY:
+    case GM_ELASTIC_ENERGY:
+    case GM_OUTPUT_INERTIA:
+    case GM_PATH_INERTIA:
     case GM_OUT_OF_MAP:
     case GM_PATH_A:
     case GM_PATH_LOSS_TORQUE:

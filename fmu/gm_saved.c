@@ -10,7 +10,7 @@
 #include <string.h>
 
 #define MAGIC 0x54534d47u /* "GMST" where the low byte comes first */
-#define VERSION 1u
+#define VERSION 2u
 #define FNV_START 0xcbf29ce484222325u
 #define FNV_PRIME 0x100000001b3u
 
@@ -62,6 +62,7 @@ static void save_path(const gm_run *run, int p, gm_saved_path *s)
     const gm_path_state *path = &run->component.state.path[p];
     s->phi = path->phi;
     s->w = path->w;
+    s->twist = path->twist;
     s->mode = path->mode;
     s->gear = path->gear;
     s->tau_rate = run->component.path_tau_rate[p];
@@ -138,6 +139,7 @@ static void restore_path(const gm_saved_path *s, int p, gm_run *run)
     gm_path_state *path = &run->component.state.path[p];
     path->phi = s->phi;
     path->w = s->w;
+    path->twist = s->twist;
     path->mode = s->mode;
     path->gear = s->gear;
     run->component.path_tau_rate[p] = s->tau_rate;

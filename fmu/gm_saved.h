@@ -21,7 +21,7 @@
 #include "gm_run.h"
 
 typedef struct gm_saved_path {
-    gm_real phi, w, tau_rate;
+    gm_real phi, w, twist, tau_rate;
     int32_t mode, gear, gear_reported, reported_gear;
 } gm_saved_path;
 

@@ -207,7 +207,8 @@ static void write_enumerations(xml *x)
     text(x, "name", "Fidelity");
     text(x, "description", "how the path from input to output is modelled");
     start(x, "Enumeration");
-    write_item(x, "rigid", 1, "engaged paths turn with the output");
+    write_item(x, "rigid", GM_RIGID, "engaged paths turn with the output");
+    write_item(x, "lash", GM_LASH, "a spring with backlash connects them");
     end(x);
     end(x);
 }

@@ -90,6 +90,9 @@ bool gm_bake_depends_initially(scalar of, scalar on)
     case VARIABLE_PATH_STATE:
     case VARIABLE_PATH_GEAR_REFUSED:
         return on.id == VARIABLE_PATH_GEAR && on.path == of.path;
+    case VARIABLE_PATH_INERTIA:
+    case VARIABLE_OUTPUT_INERTIA:
+        return on.id == VARIABLE_PATH_GEAR;
     case VARIABLE_KINETIC_ENERGY:
         return sets_speeds(on.id);
     default:
@@ -111,6 +114,7 @@ static const unit_type units[] = {
     {.unit = "N.m", .type = "Torque", .quantity = "Torque", .kg = 1, .m = 2, .s = -2},
     {.unit = "W", .type = "Power", .quantity = "Power",
      .kg = 1, .m = 2, .s = -3, .display = {"kW", 1e-3, 0.0}},
+    {.unit = "kg.m2", .type = "Inertia", .quantity = "MomentOfInertia", .kg = 1, .m = 2},
     {.unit = "rad", .type = "Angle", .quantity = "Angle",
      .rad = 1, .display = {"deg", DEGREES, 0.0}},
     {.unit = "rad/s", .type = "AngularVelocity", .quantity = "AngularVelocity",

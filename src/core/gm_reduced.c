@@ -15,6 +15,7 @@ enum { GM_SUBSTEPS = 12 }; /* events in one step; those beyond are treated at it
 
 void gm_reduced_default_params(const gm_reduced_map *map, gm_reduced_params *params)
 {
+    params->fidelity = GM_RIGID;
     params->loss_scale = 1;
     for (int p = 0; p < GM_MAX_PATHS; p++) {
         params->sync_torque[p] = map->path[p < map->n_paths ? p : 0].sync_torque;
@@ -131,7 +132,7 @@ int gm_reduced_start(const gm_reduced_map *map, const gm_reduced_inputs *inputs,
                      gm_real w_o, const gm_real *w, gm_reduced_state *state)
 {
     static const gm_reduced_state zero = {0};
-    gm_motion s = {0, 0, 0, {{0, 0, 0, -1}, {0, 0, 0, -1}}, 0, 0};
+    gm_motion s = {0, 0, 0, {{0, 0, 0, 0, -1}, {0, 0, 0, 0, -1}}, 0, 0};
     int flags = 0;
     s.w_o = w_o;
     for (int p = 0; p < map->n_paths; p++) {
@@ -208,11 +209,13 @@ static void path_outputs(const gm_drive *d, const gm_solution *s, int p,
     const gm_path_terms *t = &s->terms.path[p];
     const gm_real c = p == 0 ? s->terms.coupling : -s->terms.coupling;
     if (d->engaged[p]) {
+        o->inertia[p] = d->inertia[GM_OUT] / (d->ratio[p] * d->ratio[p]);
         o->a[p] = d->ratio[p] * o->a_o;
         o->transmitted[p] = s->point.tau_m[p];
         o->path_loss_torque[p] = t->load;
         return;
     }
+    o->inertia[p] = d->inertia[p];
     o->a[p] = s->point.a[p];
     o->path_loss_torque[p] = s->held[p] ? d->tau[p] - d->cone[p] : t->drag + c;
     o->output_loss_torque += t->reaction;
@@ -239,6 +242,7 @@ int gm_reduced_outputs_at(const gm_reduced_map *map, const gm_reduced_params *pa
         share_holding(&d, &solution);
     }
     o.a_o = solution.point.a[GM_OUT];
+    o.inertia_o = d.inertia[GM_OUT];
     o.output_loss_torque = solution.terms.out;
     o.kinetic_energy = d.inertia[GM_OUT] * s.w_o * s.w_o / 2;
     for (int p = 0; p < d.n_paths; p++) {

@@ -45,6 +45,14 @@ typedef struct gm_gear {
     gm_table2 load_loss[2]; /* D by direction of rotation of the path: x |w_p| [rad/s],
                                y torque in the direction of rotation [N.m] (> 0 driving)
                                -> loss torque at the path's flange [N.m] */
+    /* Between the path's flange and the output, seen from the flange; used in fidelity
+       lash. stiffness 0: not known, the path is rigid in that gear. */
+    gm_real stiffness; /* k [N.m/rad], both flanks in contact, >= 0 */
+    gm_real damping;   /* d of the contact [N.m.s/rad], >= 0 */
+    gm_real lash;      /* whole free angle [rad], >= 0 */
+    gm_table1 pin[2];  /* part of P that brakes the input side, by direction of rotation
+                          of the path: x |w_p| [rad/s] -> N.m at the path's flange, >= 0;
+                          value = NULL: zero */
 } gm_gear;
 
 /** A line w_n = ratio * w_o of the (w_n, w_o) plane, on which the drag of one idling gear
@@ -106,7 +114,13 @@ typedef enum gm_path_mode {
     GM_PATH_ENGAGED = 2
 } gm_path_mode;
 
+typedef enum gm_fidelity {
+    GM_RIGID = 1, /* engaged paths turn with the output */
+    GM_LASH = 2   /* a spring with backlash connects them */
+} gm_fidelity;
+
 typedef struct gm_reduced_params {
+    int fidelity;                      /* gm_fidelity; the same over a whole run */
     gm_real loss_scale;                /* factor on every loss torque, >= 0; default 1 */
     gm_real sync_torque[GM_MAX_PATHS]; /* cone capacity at the input flange [N.m], > 0 or
                                           infinite (HUGE_VAL): instantaneous engagement */
@@ -123,6 +137,8 @@ typedef struct gm_reduced_inputs {
 /** State of one path. */
 typedef struct gm_path_state {
     gm_real phi, w; /* rad, rad/s */
+    gm_real twist;  /* of the engaged gear, 0 in the middle of its lash; its rate is
+                       w - ratio w_o in fidelity lash, and it is 0 in rigid [rad] */
     int mode;       /* gm_path_mode */
     int gear;       /* index of the gear engaged or being synchronised; -1 in neutral */
 } gm_path_state;
@@ -179,6 +195,9 @@ typedef struct gm_reduced_outputs {
     gm_real output_loss_torque;         /* sigma (P + X) + R at the output [N.m] */
     gm_real loss_power;                 /* all of it, cones included [W] */
     gm_real kinetic_energy;             /* [J] */
+    gm_real elastic_energy;             /* of the twisted paths [J] */
+    gm_real inertia_o;                  /* that the output flange feels at once, */
+    gm_real inertia[GM_MAX_PATHS];      /* and that of each path [kg.m2] */
 } gm_reduced_outputs;
 
 /** Flags of a call, or-ed. */
@@ -190,7 +209,7 @@ enum {
     GM_FLAG_GEAR_REFUSED_1 = 8
 };
 
-/** loss_scale 1 and the map's own cone capacities. */
+/** Rigid, loss_scale 1 and the map's own cone capacities. */
 void gm_reduced_default_params(const gm_reduced_map *map, gm_reduced_params *params);
 
 /** Index of gear number in path p: -1 for neutral, -2 when the path has no such gear. */

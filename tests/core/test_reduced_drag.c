@@ -57,7 +57,7 @@ static double law_r(int p, double w_n, double w_o)
 
 static gm_path_terms terms_at(int p, double sign_n, double w_n, double w_o)
 {
-    const gm_reduced_params params = {1, {1, 1}};
+    const gm_reduced_params params = {GM_RIGID, 1, {1, 1}};
     gm_motion motion = {0};
     gm_drive d;
     gm_terms t;

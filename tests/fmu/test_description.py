@@ -11,7 +11,8 @@ from fmpy.validation import validate_fmu
 
 BASE = {"N.m": {"kg": 1, "m": 2, "s": -2}, "J": {"kg": 1, "m": 2, "s": -2},
         "W": {"kg": 1, "m": 2, "s": -3}, "K": {"K": 1}, "1": {}, "rad": {"rad": 1},
-        "rad/s": {"rad": 1, "s": -1}, "rad/s2": {"rad": 1, "s": -2}}
+        "rad/s": {"rad": 1, "s": -1}, "rad/s2": {"rad": 1, "s": -2},
+        "kg.m2": {"kg": 1, "m": 2}}
 
 
 @pytest.fixture(params=["one", "two"])
@@ -65,7 +66,10 @@ def test_enumerations(two):
     types = {t.name: t for t in two.description.typeDefinitions}
     assert [(i.name, int(i.value)) for i in types["PathState"].items] == [
         ("neutral", 0), ("synchronising", 1), ("engaged", 2)]
-    assert [(i.name, int(i.value)) for i in types["Fidelity"].items] == [("rigid", 1)]
+    assert [(i.name, int(i.value)) for i in types["Fidelity"].items] == [
+        ("rigid", 1),
+        ("lash", 2),
+    ]
 
 
 def test_names_follow_the_number_of_paths(one, two):

@@ -15,7 +15,7 @@
 #include <cmocka.h>
 
 /* No gaps: the members are all there is. */
-_Static_assert(sizeof(gm_saved_path) == 3 * sizeof(gm_real) + 4 * sizeof(int32_t),
+_Static_assert(sizeof(gm_saved_path) == 4 * sizeof(gm_real) + 4 * sizeof(int32_t),
                "gm_saved_path has gaps");
 _Static_assert(sizeof(gm_saved) == 2 * sizeof(uint32_t) + 2 * sizeof(uint64_t) +
                                        GM_VARIABLES * GM_MAX_PATHS * sizeof(gm_real) +

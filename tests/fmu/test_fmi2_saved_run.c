@@ -59,7 +59,7 @@ static void fill(gm_run *run, bool yes)
     for (int p = 0; p < GM_MAX_PATHS; p++) {
         run->component.path_tau_rate[p] = number();
         run->component.state.path[p] =
-            (gm_path_state){number(), number(), count(), count()};
+            (gm_path_state){number(), number(), number(), count(), count()};
         run->gear_reported[p] = yes;
         run->reported_gear[p] = count();
     }
@@ -91,6 +91,7 @@ static void assert_same_path(const gm_run *a, const gm_run *b, int p)
     assert_true(a->component.path_tau_rate[p] == b->component.path_tau_rate[p]);
     assert_true(x->phi == y->phi);
     assert_true(x->w == y->w);
+    assert_true(x->twist == y->twist);
     assert_int_equal(x->mode, y->mode);
     assert_int_equal(x->gear, y->gear);
     assert_int_equal(a->gear_reported[p], b->gear_reported[p]);
