@@ -11,7 +11,7 @@
 #include "solve/gm_steady_solver.h"
 
 #include "base/alloc.h"
-#include "solve/sun.h"
+#include "solve/sun_newton.h"
 
 #include <math.h>
 #include <string.h>

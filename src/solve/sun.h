@@ -1,39 +1,54 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * The only place where SUNDIALS is included and its versions differ (5.8 has no context,
- * 6.x has one made from void *, 7.x from SUNComm and with error handlers on the context).
- * A nonlinear system solved by KINSOL with a sparse Jacobian (KLU when SUNDIALS has it,
- * else dense). One owner for every SUNDIALS object; its messages are caught.
+ * What the solvers of SUNDIALS share, and the only place where its versions differ (5.8
+ * has no context, 6.x has one made from void *, 7.x from SUNComm and with error handlers
+ * on the context): context, caught messages, the matrix in compressed columns and its
+ * linear solver (KLU when SUNDIALS has it, else dense). Only sun*.c include it.
  */
 #ifndef SUN_H
 #define SUN_H
 
-/** The system: callbacks get `user`. The Jacobian is in compressed columns; pattern is
- *  asked for again after gm_sun_newton_pattern_changed. */
-typedef struct gm_sun_system {
-    int n_max; /* largest number of unknowns */
-    void *user;
-    int (*size)(void *user);    /* present number of unknowns, <= n_max */
-    int (*entries)(void *user); /* present number of Jacobian entries */
-    void (*residual)(void *user, const double *x, double *f);
-    void (*pattern)(void *user, int *column_start, int *row);
-    void (*jacobian)(void *user, const double *x, double *value);
-} gm_sun_system;
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_config.h>
+#include <sundials/sundials_linearsolver.h>
+#include <sundials/sundials_matrix.h>
 
-typedef struct gm_sun_newton gm_sun_newton;
+typedef struct gm_sun {
+    char message[256]; /* the last one of SUNDIALS, "" if there was none */
+#if SUNDIALS_VERSION_MAJOR >= 6
+    SUNContext context;
+#endif
+} gm_sun;
 
-/** NULL when there is no memory. */
-gm_sun_newton *gm_sun_newton_create(const gm_sun_system *system);
-void gm_sun_newton_destroy(gm_sun_newton *newton);
+/* The context as the last and as the only argument; versions 5 have none. */
+#if SUNDIALS_VERSION_MAJOR >= 6
+#define GM_SUN_LAST(sun) , (sun)->context
+#define GM_SUN_ONLY(sun) (sun)->context
+#else
+#define GM_SUN_LAST(sun)
+#define GM_SUN_ONLY(sun)
+#endif
 
-/** Call after size or pattern of the system changed. Non-zero: no memory. */
-int gm_sun_newton_pattern_changed(gm_sun_newton *newton);
+/* Catch the messages of a solver, set being its function for that; 0 done. From version 7
+ * on the context catches them. */
+#if SUNDIALS_VERSION_MAJOR >= 7
+#define GM_SUN_CATCH(set, solver, sun) 0
+#else
+#define GM_SUN_CATCH(set, solver, sun) set(solver, gm_sun_keep_message, sun)
+void gm_sun_keep_message(int code, const char *module, const char *function,
+                         char *message, void *user);
+#endif
 
-/** Damped Newton (line search) from x until the largest residual is below tolerance.
- *  x[n] is improved in place. Returns KINSOL's flag: >= 0 success. */
-int gm_sun_newton_solve(gm_sun_newton *newton, double tolerance, double *x);
+/** Non-zero: no memory. gm_sun_close may be called either way. */
+int gm_sun_open(gm_sun *sun);
+void gm_sun_close(gm_sun *sun);
 
-/** The last message of SUNDIALS, "" if there was none. */
-const char *gm_sun_newton_message(const gm_sun_newton *newton);
+/** Square matrix with room for entries, and a solver for it; NULL without memory. */
+SUNMatrix gm_sun_matrix(const gm_sun *sun, int n, int entries);
+SUNLinearSolver gm_sun_linear(const gm_sun *sun, N_Vector x, SUNMatrix matrix);
+
+/** Put a matrix in compressed columns into the form of SUNDIALS. */
+void gm_sun_matrix_fill(SUNMatrix matrix, int n, const int *column_start, const int *row,
+                        const double *value);
 
 #endif
