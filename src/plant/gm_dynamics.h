@@ -56,6 +56,8 @@ typedef struct gm_dynamics_class {
        Fills x[n_states] and the modes. */
     gm_status (*start)(void *motion, const gm_motion_input *input, const double *speed,
                        double *x, gm_error *error);
+    /* Name of state i for messages, such as "shaft input"; NULL: they have none. */
+    const char *(*state_name)(const void *motion, int i);
     /* Absolute error of each state that matters as little as `relative` of a typical
        value. */
     void (*tolerances)(const void *motion, double relative, double *absolute);
