@@ -25,7 +25,7 @@ install_rust() {
 # Prints where fmi-sim is; builds it when it is neither in the path nor in build/.
 find_fmi_sim() {
   local root=$PWD/build/fmi-sim
-  if [ "$(fmi-sim --version 2>/dev/null)" = "fmi-sim $fmi_sim_version" ]; then
+  if fmi-sim --version 2>&1 | grep -q "fmi-sim $fmi_sim_version"; then # as an error
     command -v fmi-sim
     return 0
   fi
