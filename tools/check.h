@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * The two parts of `gearmap check`: what the gearset is, and where one operating point
- * loses its power. Each collects first and prints after, as text or as JSON.
+ * The parts of `gearmap check`: what the gearset is, how all its gears work at one speed
+ * and torque, and where one operating point loses its power. Each collects first and
+ * prints after, as text or as JSON.
  */
 #ifndef CHECK_H
 #define CHECK_H
@@ -57,7 +58,28 @@ GM_NODISCARD gm_status gm_check_point(const gm_gearset_file *file,
                                       const gm_point_request *request,
                                       gm_checked_point *point, gm_error *error);
 void gm_checked_point_clear(gm_checked_point *point);
+/** Power [W] that all parts of a kind lose. */
+double gm_checked_point_power(const gm_checked_point *point, gm_loss_kind kind);
+/** Power out over power in, in the direction of the flow; NAN when nothing comes out. */
+double gm_checked_point_efficiency(const gm_checked_point *point);
 void gm_checked_point_print(const gm_checked_point *point, FILE *out);
-void gm_checked_point_json(const gm_checked_point *point, gm_json *json);
+/** key: of the object; NULL inside an array. */
+void gm_checked_point_json(const gm_checked_point *point, const char *key, gm_json *json);
+
+/** Every gear at one speed [rad/s] and torque [N.m] of the input. */
+typedef struct gm_checked_reference {
+    const gm_description *description;
+    double speed, torque;
+    int n_points;
+    gm_checked_point *points; /* [n_points], ascending by gear */
+} gm_checked_reference;
+
+/** Solve the point in every gear. On failure nothing is held. */
+GM_NODISCARD gm_status gm_check_reference(const gm_gearset_file *file, double speed,
+                                          double torque, gm_checked_reference *reference,
+                                          gm_error *error);
+void gm_checked_reference_clear(gm_checked_reference *reference);
+void gm_checked_reference_print(const gm_checked_reference *reference, FILE *out);
+void gm_checked_reference_json(const gm_checked_reference *reference, gm_json *json);
 
 #endif

@@ -190,7 +190,9 @@ static void paths_json(const gm_checked_gearset *c, gm_json *json)
     gm_json_array(json, "paths");
     for (int p = 0; p < c->description->n_paths; p++) {
         gm_json_object(json, NULL);
-        gm_json_text(json, "name", c->description->paths[p].id.name);
+        const gm_path_part *path = &c->description->paths[p];
+        gm_json_text(json, "name", path->id.name);
+        gm_json_text(json, "shaft", c->description->shafts[path->shaft].id.name);
         gm_json_number(json, "inertia_kgm2", c->inertia[p]);
         gm_json_array(json, "gears");
         for (int i = 0; i < c->n_gears; i++)
@@ -210,6 +212,7 @@ void gm_checked_gearset_json(const gm_checked_gearset *checked, gm_json *json)
     gm_json_text(json, "file", d->file);
     gm_json_text(json, "sha256", d->sha256);
     gm_json_number(json, "oil_temperature_degC", checked->oil_temperature - KELVIN);
+    gm_json_text(json, "output", d->shafts[d->output].id.name);
     gm_json_number(json, "inertia_output_kgm2", checked->inertia_output);
     shafts_json(d, json);
     paths_json(checked, json);

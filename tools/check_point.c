@@ -12,10 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define RPM_PER_RAD_S 9.549296585513721 /* 60 / (2 pi) */
-#define KELVIN 273.15
-#define SMALL_SHARE 1e-3 /* of the loss: below, an element is not listed */
-
 static int has_gear(const gm_path_part *path, int number)
 {
     for (int g = 0; g < path->n_gears; g++)
@@ -188,130 +184,18 @@ void gm_checked_point_clear(gm_checked_point *point)
     memset(point, 0, sizeof *point);
 }
 
-static double power_of(const gm_checked_point *c, gm_loss_kind kind)
+double gm_checked_point_power(const gm_checked_point *point, gm_loss_kind kind)
 {
     double sum = 0.0;
-    for (int i = 0; i < c->n_elements; i++)
-        sum += c->elements[i].kind == kind ? c->elements[i].power : 0.0;
+    for (int i = 0; i < point->n_elements; i++)
+        sum += point->elements[i].kind == kind ? point->elements[i].power : 0.0;
     return sum;
 }
 
-/* Output power per input power in the direction of the flow; NAN when nothing comes out.
- */
-static double efficiency(const gm_checked_point *c)
+double gm_checked_point_efficiency(const gm_checked_point *point)
 {
-    double in = c->request.torque * c->request.speed;
-    double out = c->output_torque * c->output_speed;
+    double in = point->request.torque * point->request.speed;
+    double out = point->output_torque * point->output_speed;
     double eta = in > 0.0 ? -out / in : -in / out;
     return eta > 0.0 && eta < 1.0 ? eta : (double)NAN;
-}
-
-static void print_free_path(const gm_checked_point *c, FILE *out)
-{
-    double rpm = c->other_speed * RPM_PER_RAD_S;
-    fprintf(out, "%s in neutral, ", c->other);
-    if (!c->other_sticks)
-        fprintf(out, "turning freely at %.0f rpm\n", rpm);
-    else if (fabs(rpm) < 0.5)
-        fputs("held at rest by friction\n", out);
-    else if (c->other_gear != 0)
-        fprintf(out, "held by friction in step with gear %d at %.0f rpm\n", c->other_gear,
-                rpm);
-    else
-        fprintf(out, "held by friction at %.0f rpm\n", rpm);
-}
-
-static void print_head(const gm_checked_point *c, FILE *out)
-{
-    const gm_point_request *r = &c->request;
-    fprintf(out, "gear %d (%s) at %.0f rpm and %.1f N·m, oil %.1f °C\n", r->gear, c->path,
-            r->speed * RPM_PER_RAD_S, r->torque, c->oil_temperature - KELVIN);
-    if (c->other && r->preselected != 0)
-        fprintf(out, "gear %d preselected (%s at %.0f rpm)\n", r->preselected, c->other,
-                c->other_speed * RPM_PER_RAD_S);
-    else if (c->other)
-        print_free_path(c, out);
-    fprintf(out, "output %.1f rpm, %.2f N·m; loss %.1f W = %.4f N·m at the input",
-            c->output_speed * RPM_PER_RAD_S, -c->output_torque, c->loss,
-            c->loss / fabs(r->speed));
-    if (!isnan(efficiency(c)))
-        fprintf(out, "; efficiency %.2f %%", 100.0 * efficiency(c));
-    fputs("\n\n", out);
-}
-
-static void print_element(const gm_element_loss *e, FILE *out)
-{
-    int sliding = e->kind == GM_LOSS_MESH;
-    fprintf(out, "  %-24s %-17s %10.3f %8.1f %-3s %10.0f %10.0f\n", e->name,
-            gm_loss_kind_name(e->kind), e->power,
-            sliding ? e->speed : e->speed * RPM_PER_RAD_S, sliding ? "m/s" : "rpm",
-            e->radial, e->axial);
-}
-
-/* Largest first; those that hardly matter are only counted. */
-static void print_elements(const gm_checked_point *c, FILE *out)
-{
-    int n = 0;
-    fprintf(out, "\n%-26s %-17s %10s %12s %10s %10s\n", "element", "kind", "loss [W]",
-            "speed", "load [N]", "axial [N]");
-    for (; n < c->n_elements && c->elements[n].power >= SMALL_SHARE * c->loss; n++)
-        print_element(&c->elements[n], out);
-    if (n < c->n_elements)
-        fprintf(out, "  and %d others with less than %g %% each (all: --json)\n",
-                c->n_elements - n, 100.0 * SMALL_SHARE);
-}
-
-void gm_checked_point_print(const gm_checked_point *point, FILE *out)
-{
-    double speed = fabs(point->request.speed);
-    print_head(point, out);
-    fprintf(out, "%-44s %10s %12s %8s\n", "component", "loss [W]", "at input", "share");
-    for (int k = 0; k < GM_LOSS_KINDS; k++) {
-        double power = power_of(point, (gm_loss_kind)k);
-        if (power > 0.0)
-            fprintf(out, "  %-42s %10.2f %8.4f N·m %6.1f %%\n",
-                    gm_loss_kind_name((gm_loss_kind)k), power, power / speed,
-                    100.0 * power / point->loss);
-    }
-    print_elements(point, out);
-}
-
-static void element_json(const gm_element_loss *e, gm_json *json)
-{
-    int sliding = e->kind == GM_LOSS_MESH;
-    gm_json_object(json, NULL);
-    gm_json_text(json, "name", e->name);
-    gm_json_text(json, "kind", gm_loss_kind_name(e->kind));
-    gm_json_number(json, "loss_W", e->power);
-    gm_json_number(json, sliding ? "speed_m_s" : "speed_rpm",
-                   sliding ? e->speed : e->speed * RPM_PER_RAD_S);
-    gm_json_number(json, "radial_load_N", e->radial);
-    gm_json_number(json, "axial_load_N", e->axial);
-    gm_json_end(json);
-}
-
-void gm_checked_point_json(const gm_checked_point *point, gm_json *json)
-{
-    const gm_point_request *r = &point->request;
-    gm_json_object(json, "point");
-    gm_json_text(json, "path", point->path);
-    gm_json_integer(json, "gear", r->gear);
-    gm_json_integer(json, "preselected", r->preselected);
-    gm_json_number(json, "speed_rpm", r->speed * RPM_PER_RAD_S);
-    gm_json_number(json, "torque_Nm", r->torque);
-    gm_json_number(json, "output_speed_rpm", point->output_speed * RPM_PER_RAD_S);
-    gm_json_number(json, "output_torque_Nm", -point->output_torque);
-    gm_json_number(json, "loss_W", point->loss);
-    gm_json_number(json, "loss_at_input_Nm", point->loss / fabs(r->speed));
-    gm_json_number(json, "efficiency", efficiency(point));
-    gm_json_object(json, "components_W");
-    for (int k = 0; k < GM_LOSS_KINDS; k++)
-        gm_json_number(json, gm_loss_kind_name((gm_loss_kind)k),
-                       power_of(point, (gm_loss_kind)k));
-    gm_json_end(json);
-    gm_json_array(json, "elements");
-    for (int i = 0; i < point->n_elements; i++)
-        element_json(&point->elements[i], json);
-    gm_json_end(json);
-    gm_json_end(json);
 }

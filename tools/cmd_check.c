@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * gearmap check: read a description, print what the gearset is; with an operating point,
- * where it loses power.
+ * gearmap check: read a description, print what the gearset is and how its gears work at
+ * a reference point; with a gear, where that gear loses power.
  */
 #include "commands.h"
 
@@ -20,13 +20,14 @@ static const gm_option options[] = {
     GM_DESCRIPTION_OPERAND(arguments),
     {.kind = GM_OPTION_INTEGER, .name = "gear", .value = "N", .low = -9, .high = 99,
      .offset = offsetof(arguments, gear),
-     .help = "print the losses of an operating point in this gear (-1: reverse)"},
+     .help = "print one operating point in detail, in this gear (-1: reverse)"},
     {.kind = GM_OPTION_QUANTITY, .name = "speed", .value = "SPEED", .unit = "rpm",
      .low = -1e5, .high = 1e5, .offset = offsetof(arguments, speed),
-     .help = "speed of the input at that point"},
+     .help = "speed of the input at the point; default: half of the largest"},
     {.kind = GM_OPTION_QUANTITY, .name = "torque", .value = "TORQUE", .unit = "Nm",
      .low = -1e6, .high = 1e6, .offset = offsetof(arguments, torque),
-     .help = "torque at the input; negative: the output drives (at positive speed)"},
+     .help = "torque at the input, negative: the output drives (at positive speed); "
+             "default: half of the largest"},
     {.kind = GM_OPTION_INTEGER, .name = "preselect", .value = "N", .low = -9, .high = 99,
      .fallback = "0", .offset = offsetof(arguments, preselect),
      .help = "gear engaged without load on the other path; 0: that path is free"},
@@ -38,24 +39,22 @@ static const gm_option options[] = {
 
 static int wants_point(const arguments *a)
 {
-    return a->gear != GM_OPTION_UNSET || !isnan(a->speed) || !isnan(a->torque);
+    return a->gear != GM_OPTION_UNSET;
 }
 
 static const char *usage_problem(const arguments *a)
 {
-    if (!wants_point(a))
-        return a->preselect != 0 ? "--preselect belongs to an operating point (--gear, "
-                                   "--speed and --torque)"
-                                 : NULL;
-    if (a->gear == GM_OPTION_UNSET || isnan(a->speed) || isnan(a->torque))
-        return "an operating point needs --gear, --speed and --torque";
+    if (!wants_point(a) && a->preselect != 0)
+        return "--preselect belongs to an operating point (--gear)";
     if (a->gear == 0)
         return "an operating point needs a gear; 0 is neutral";
     return a->speed == 0.0 ? "an operating point needs a speed other than 0" : NULL;
 }
 
+/* The point, or else what the gearset is and all gears. */
 typedef struct checked {
     gm_checked_gearset gearset;
+    gm_checked_reference reference;
     gm_checked_point point;
     int has_point;
 } checked;
@@ -63,10 +62,12 @@ typedef struct checked {
 static void print_text(const void *result, FILE *out)
 {
     const checked *c = result;
-    if (c->has_point)
+    if (c->has_point) {
         gm_checked_point_print(&c->point, out);
-    else
-        gm_checked_gearset_print(&c->gearset, out);
+        return;
+    }
+    gm_checked_gearset_print(&c->gearset, out);
+    gm_checked_reference_print(&c->reference, out);
 }
 
 static void print_json(const void *result, gm_json *json)
@@ -74,7 +75,9 @@ static void print_json(const void *result, gm_json *json)
     const checked *c = result;
     gm_checked_gearset_json(&c->gearset, json);
     if (c->has_point)
-        gm_checked_point_json(&c->point, json);
+        gm_checked_point_json(&c->point, "point", json);
+    else
+        gm_checked_reference_json(&c->reference, json);
 }
 
 static const gm_result_form form = {print_text, print_json};
@@ -83,13 +86,19 @@ static gm_status check_open_file(const arguments *a, const gm_gearset_file *file
                                  gm_error *error)
 {
     checked c = {.has_point = wants_point(a)};
-    const gm_point_request request = {a->gear, a->preselect, a->speed, a->torque};
+    const gm_description *d = file->description;
+    const double speed = isnan(a->speed) ? 0.5 * d->speed_max : a->speed;
+    const double torque = isnan(a->torque) ? 0.5 * d->torque_max : a->torque;
+    const gm_point_request request = {a->gear, a->preselect, speed, torque};
     gm_status status = gm_check_gearset(file, &c.gearset, error);
     if (status == GM_OK && c.has_point)
         status = gm_check_point(file, &request, &c.point, error);
+    else if (status == GM_OK)
+        status = gm_check_reference(file, speed, torque, &c.reference, error);
     if (status == GM_OK)
         status = gm_command_print(&form, a->json, &c, error);
     gm_checked_point_clear(&c.point);
+    gm_checked_reference_clear(&c.reference);
     gm_checked_gearset_clear(&c.gearset);
     return status;
 }
@@ -117,9 +126,11 @@ const gm_command gm_command_check = {
     .name = "check",
     .summary = "validate a description, print the gearset",
     .details =
-        "Prints shafts, ratios as the model turns, inertias and the power flow of "
-        "each gear. With --gear, --speed and --torque: the losses of that operating "
-        "point by component and by element.",
+        "Prints shafts, ratios as the model turns, inertias, the power flow of each "
+        "gear, "
+        "and of all gears at half of the largest speed and torque (or at --speed and "
+        "--torque): losses by component, efficiency, mesh frequencies, bearing loads. "
+        "With --gear: that gear alone, element by element.",
     .options = options,
     .n_options = sizeof options / sizeof options[0],
     .size = sizeof(arguments),

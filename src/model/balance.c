@@ -14,8 +14,10 @@
 #include "model/gearset.h"
 
 #include "base/alloc.h"
+#include "model/power.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* A relative speed below this share of the speeds it is the difference of is zero: it is
@@ -420,6 +422,12 @@ void gm_balance_result(const gm_balance *balance, const double *x,
         result->torque[rows->flange[i]] = x[rows->n_rows + i];
 }
 
+/* p_bt = pi d_b / z [m] */
+static double base_pitch(const gm_pair *pair)
+{
+    return GM_PI * pair->d_b[0] / abs(pair->z[0]);
+}
+
 static void mesh_losses(gm_balance *b, const double *x, gm_element_loss *losses)
 {
     const gm_gearset *g = b->gearset;
@@ -429,6 +437,7 @@ static void mesh_losses(gm_balance *b, const double *x, gm_element_loss *losses)
                                       .name = g->description->meshes[m].id.name,
                                       .power = mesh_friction(b, m, x[m], NULL) * along,
                                       .speed = b->mesh[m].speed,
+                                      .frequency = along / base_pitch(&g->meshes[m].pair),
                                       .radial = fabs(x[m]) / g->meshes[m].contacts};
     }
 }

@@ -122,6 +122,7 @@ typedef struct gm_element_loss {
     double power;         /* W, >= 0 */
     double speed;         /* relative, rad/s or m/s (meshes) */
     double radial, axial; /* loads of bearings, tangential force F_bt of meshes [N] */
+    double frequency;     /* of a mesh: pairs of teeth that meet per second, Hz */
 } gm_element_loss;
 
 int gm_gearset_element_count(const gm_gearset *gearset);

@@ -37,9 +37,8 @@ def test_ratios_are_the_given_ones_and_fall_with_the_gear(checked):
 
 def test_power_flows_from_the_input_shaft_to_the_output(checked):
     for path in checked["paths"]:
-        starts = {g["power_flow"][0] for g in path["gears"]}
-        ends = {g["power_flow"][-1] for g in path["gears"]}
-        assert len(starts) == 1 and len(ends) == 1
+        assert {g["power_flow"][0] for g in path["gears"]} == {path["shaft"]}
+        assert {g["power_flow"][-1] for g in path["gears"]} == {checked["output"]}
         assert all(len(g["power_flow"]) == len(set(g["power_flow"])) for g in path["gears"])
 
 
@@ -57,6 +56,74 @@ def test_text_shows_every_gear_and_shaft(checked):
     for path in checked["paths"]:
         for g in path["gears"]:
             assert " > ".join(g["power_flow"]) in text
+
+
+def test_all_gears_at_half_speed_and_torque(checked):
+    points = checked["points"]
+    assert [p["gear"] for p in points] == [-1, 1, 2, 3, 4, 5, 6, 7]
+    for p in points:
+        assert (p["speed_rpm"], p["torque_Nm"]) == (pytest.approx(3250), 125)
+    alone = result_of("check", EXAMPLE, "--gear", "3")["point"]
+    assert alone == points[3]
+
+
+def test_all_gears_at_a_given_point():
+    points = result_of("check", EXAMPLE, "--speed", "2000rpm", "--torque", "100Nm")["points"]
+    assert points[3] == point_of(3, 2000, 100)
+
+
+def row(text, heading, name):
+    """The numbers of one row of a table; None where there is a dash."""
+    table = text[text.index(f"\n{heading}"):].lstrip("\n").split("\n\n")[0]
+    line = re.search(rf"^  {re.escape(name)}  +(.*)$", table, re.M).group(1)
+    return [None if word == "-" else float(word) for word in line.split()]
+
+
+def test_text_has_losses_of_all_gears(checked):
+    text = succeeds("check", EXAMPLE).stdout
+    points = checked["points"]
+    for kind, of_first in points[0]["components_W"].items():
+        assert row(text, "loss [W]", kind)[0] == pytest.approx(of_first, abs=0.05)
+    assert row(text, "loss [W]", "total") == \
+        pytest.approx([p["loss_W"] for p in points], abs=0.05)
+    assert row(text, "loss [W]", "efficiency [%]") == \
+        pytest.approx([100 * p["efficiency"] for p in points], abs=0.005)
+
+
+def test_teeth_meet_as_often_as_they_pass(checked):
+    """z n / 60 of the drive gears of third (32 teeth) and of the final drive (16, behind
+    32:49); second does not carry load in third."""
+    text = succeeds("check", EXAMPLE).stdout
+    third = checked["points"][3]
+    meshes = {e["name"]: e for e in third["elements"] if e["kind"] == "meshes"}
+    assert meshes["third"]["frequency_Hz"] == pytest.approx(32 * 3250 / 60)
+    assert meshes["final_drive_1"]["frequency_Hz"] == pytest.approx(16 * 3250 * 32 / 49 / 60)
+    assert row(text, "teeth meet", "third")[3] == pytest.approx(32 * 3250 / 60, abs=0.05)
+    assert row(text, "teeth meet", "second")[3] is None
+
+
+def test_bearing_loads_are_the_largest_of_all_gears(checked):
+    text = succeeds("check", EXAMPLE).stdout
+    loads = {p["gear"]: e["radial_load_N"] for p in checked["points"] for e in p["elements"]
+             if (e["name"], e["kind"]) == ("output_1_front", "bearings")}
+    gear = max(loads, key=loads.get)
+    assert re.search(rf"^  output_1_front +{loads[gear]:.0f} \( ?{gear}\)", text, re.M)
+
+
+def test_forces_of_a_mesh_and_loads_of_its_bearings():
+    """F_bt = 2 T / d_b of third: 32 teeth of 1.75 mm at 27.632888 degrees."""
+    elements = point_of(3, 2000, 100)["elements"]
+    helix = math.radians(27.632888)
+    alpha_t = math.atan(math.tan(math.radians(20)) / math.cos(helix))
+    base = 32 * 1.75e-3 / math.cos(helix) * math.cos(alpha_t)
+    third = next(e for e in elements if e["name"] == "third")
+    # friction of bearings and seals of the input shaft takes less than 1 %
+    assert third["force_N"] == pytest.approx(200 / base, rel=0.01)
+    rear = next(e for e in elements if e["name"] == "input_odd_rear")
+    # of the input shaft only that bearing takes axial load; the drag of idling gears adds
+    # a little
+    axial = third["force_N"] * math.cos(alpha_t) * math.tan(helix)
+    assert rear["axial_load_N"] == pytest.approx(axial, rel=1e-3)
 
 
 def point_of(gear, speed, torque, *more):
