@@ -253,6 +253,8 @@ def test_build_lists_every_test():
         if not re.search(rf"\b(test_)?{name}\b", lists):
             wrong.append(shown(file))
     for file in sorted((ROOT / "tests").glob("*/test_*.py")):
+        if file.parent.name == "importers":
+            continue  # not part of the build: needs importers of others, see its run.sh
         lists = (file.parent / "CMakeLists.txt").read_text()
         if file.name not in lists and file.parent.name not in lists and "pytest" not in lists:
             wrong.append(shown(file))
