@@ -192,19 +192,6 @@ static contact_state mesh_slide(const gm_balance *b, const gm_mesh_element *mesh
     return s;
 }
 
-static double drag_at(const gm_gearset *g, const gm_drag_element *e, double w)
-{
-    switch (e->law) {
-    case GM_DRAG_SEAL:
-        return gm_seal_torque(e->seal, 2.0 * e->radius, &g->oil, w).value;
-    case GM_DRAG_GAP:
-        return gm_petroff_torque(e->radius, e->length, e->clearance, &g->oil, w).value;
-    case GM_DRAG_CHURNING:
-        return gm_churning_torque(&e->dip, &g->oil, w).value;
-    }
-    return 0.0;
-}
-
 static void apply(double *torque, int body, int on, double t)
 {
     torque[body] -= t;
@@ -226,7 +213,7 @@ static void slide_all(gm_balance *b)
     for (int i = 0; i < g->n_drags; i++) {
         contact_state s = slide(b, g->drags[i].body, g->drags[i].on);
         if (s.speed != b->drag[i].speed || b->drag_torque[i] == 0.0)
-            b->drag_torque[i] = drag_at(g, &g->drags[i], s.speed);
+            b->drag_torque[i] = gm_drag_torque(g, &g->drags[i], s.speed).value;
         b->drag[i] = s;
     }
 }
@@ -268,19 +255,12 @@ int gm_balance_entries(const gm_balance *balance)
 
 /* ---- friction ---- */
 
-/* Friction force of a mesh along its line of action and its derivative by F. With f on
- * both sides of the mean force, the entering power loses exactly the share kappa:
- * (F - f/2)/(F + f/2) = 1 - kappa. Parallel contacts share the force equally. */
 static double mesh_friction(const gm_balance *b, int m, double F, double *d_force)
 {
-    const gm_mesh_element *mesh = &b->gearset->meshes[m];
-    gm_mesh_share s =
-        gm_mesh_loss_share(&mesh->law, fabs(F) / mesh->contacts, b->mesh[m].speed);
-    double q = 2.0 / (2.0 - s.kappa);
-    double slope = s.d_force / mesh->contacts;
+    gm_mesh_friction f = gm_mesh_friction_at(&b->gearset->meshes[m], F, b->mesh[m].speed);
     if (d_force)
-        *d_force = (F < 0.0 ? -1.0 : 1.0) * (s.kappa * q + fabs(F) * slope * q * q);
-    return fabs(F) * s.kappa * q;
+        *d_force = f.d_force;
+    return f.value;
 }
 
 static gm_bearing_torque bearing_torque(gm_balance *b, int i, const double *x,

@@ -66,6 +66,17 @@ typedef struct gm_drag_element {
     gm_dip dip;
 } gm_drag_element;
 
+/** Friction force of a mesh along its line of action, against its rolling speed [N]. */
+typedef struct gm_mesh_friction {
+    double value;   /* >= 0 */
+    double d_force; /* by the signed row force F */
+    double d_speed; /* by the pitch-line speed v_t, N.s/m */
+} gm_mesh_friction;
+
+/** At row force F [N] and pitch-line speed v_t >= 0 [m/s]: the entering power loses the
+ *  share kappa of the mesh's law. Parallel contacts share the force equally. */
+gm_mesh_friction gm_mesh_friction_at(const gm_mesh_element *mesh, double F, double v_t);
+
 struct gm_gearset {
     const gm_description *description;
     gm_oil oil;
@@ -79,6 +90,10 @@ struct gm_gearset {
     int n_drags;
     gm_drag_element *drags;
 };
+
+/** Torque of a drag at relative speed w >= 0 [rad/s]. */
+gm_speed_torque gm_drag_torque(const gm_gearset *gearset, const gm_drag_element *drag,
+                               double w);
 
 /** Fill bodies and wheel_body. */
 GM_NODISCARD gm_status gm_bodies_make(gm_gearset *gearset, gm_error *error);

@@ -6,6 +6,7 @@
 #define GM_BUILTIN_H
 
 #include "model/gm_gearset.h"
+#include "plant/gm_dynamics.h"
 #include "plant/gm_plant.h"
 
 #ifdef __cplusplus
@@ -16,6 +17,9 @@ extern "C" {
 GM_NODISCARD gm_status gm_builtin_create(const gm_gearset *gearset, gm_plant **plant,
                                          gm_error *error);
 void gm_builtin_destroy(gm_plant *plant);
+
+/** The gearset in motion; it must outlive the dynamics and its motions. */
+gm_dynamics gm_builtin_dynamics(const gm_gearset *gearset);
 
 #ifdef __cplusplus
 }

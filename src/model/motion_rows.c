@@ -1,0 +1,139 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * From the assembled gearset to nodes and rows: what turns, what gives way, what rubs and
+ * what can be locked.
+ */
+#include "model/motion.h"
+#include "model/stiffness.h"
+
+#include "base/alloc.h"
+
+static gm_status count(gm_motion *m, gm_error *error)
+{
+    const gm_gearset *g = m->gearset;
+    const gm_description *d = g->description;
+    m->n_nodes = g->n_bodies;
+    for (int i = 0; i < d->n_synchronisers; i++)
+        m->n_locks += d->synchronisers[i].n_wheels;
+    m->n_rows = g->n_meshes + m->n_locks;
+    m->n_states = m->n_nodes + m->n_rows;
+    m->inertia = gm_calloc((size_t)m->n_nodes, sizeof *m->inertia);
+    m->rows = gm_calloc((size_t)m->n_rows, sizeof *m->rows);
+    m->roll = gm_calloc((size_t)g->n_meshes, sizeof *m->roll);
+    m->bearing = gm_calloc((size_t)g->n_bearings, sizeof *m->bearing);
+    m->drag = gm_calloc((size_t)g->n_drags, sizeof *m->drag);
+    m->locks = gm_calloc((size_t)m->n_locks, sizeof *m->locks);
+    return m->inertia && m->rows && m->roll && m->bearing && m->drag && m->locks
+               ? GM_OK
+               : gm_fail(error, GM_ERR_MEMORY, "out of memory");
+}
+
+const gm_label *gm_motion_node_label(const gm_motion *motion, int node)
+{
+    const gm_gearset *g = motion->gearset;
+    const gm_description *d = g->description;
+    int body = node;
+    if (body < d->n_shafts)
+        return &d->shafts[body].id;
+    for (int w = 0; w < d->n_wheels; w++)
+        if (g->wheel_body[w] == body)
+            return &d->wheels[w].id;
+    return &d->shafts[0].id;
+}
+
+static gm_status make_nodes(gm_motion *m, gm_error *error)
+{
+    const gm_gearset *g = m->gearset;
+    for (int i = 0; i < m->n_nodes; i++) {
+        m->inertia[i] = g->bodies[i].inertia;
+        if (m->inertia[i] > 0.0)
+            continue;
+        const gm_label *id = gm_motion_node_label(m, i);
+        return gm_fail(error, GM_ERR_MODEL,
+                       "%s:%d: '%s' has no moment of inertia: it cannot move in time",
+                       g->description->file, id->line, id->name);
+    }
+    for (int f = 0; f <= g->description->n_paths; f++)
+        m->flange[f] = gm_flange_body(g, f);
+    return GM_OK;
+}
+
+static void make_meshes(gm_motion *m)
+{
+    for (int i = 0; i < m->gearset->n_meshes; i++) {
+        const gm_mesh_element *mesh = &m->gearset->meshes[i];
+        gm_motion_row *row = &m->rows[i];
+        row->row = mesh->row;
+        row->law = gm_mesh_contact_law(m->gearset, i,
+                                       gm_row_reduced_mass(&row->row, m->inertia));
+        row->closed = 1;
+        m->roll[i] = mesh->roll;
+    }
+}
+
+static void make_lock(gm_motion *m, int i, const gm_synchroniser *sync, int wheel)
+{
+    gm_motion_row *row = &m->rows[m->gearset->n_meshes + i];
+    row->row = (gm_row){
+        .n = 2, .body = {m->gearset->wheel_body[wheel], sync->shaft}, .g = {1.0, -1.0}};
+    row->law = gm_flanks_law(&sync->dogs, sync->dogs.stiffness, sync->dogs.backlash,
+                             gm_row_reduced_mass(&row->row, m->inertia));
+    m->locks[i] = (gm_motion_lock){.name = m->gearset->description->wheels[wheel].id.name,
+                                   .wheel = wheel,
+                                   .row = m->gearset->n_meshes + i,
+                                   .capacity = sync->cone_torque,
+                                   .sense = 1.0};
+}
+
+static void make_locks(gm_motion *m)
+{
+    const gm_description *d = m->gearset->description;
+    for (int s = 0, i = 0; s < d->n_synchronisers; s++)
+        for (int k = 0; k < d->synchronisers[s].n_wheels; k++, i++)
+            make_lock(m, i, &d->synchronisers[s], d->synchronisers[s].wheels[k]);
+}
+
+int gm_motion_lock_of(const gm_motion *motion, int wheel)
+{
+    for (int i = 0; i < motion->n_locks; i++)
+        if (motion->locks[i].wheel == wheel)
+            return i;
+    return -1;
+}
+
+static void make_pairs(gm_motion *m)
+{
+    const gm_gearset *g = m->gearset;
+    for (int i = 0; i < g->n_bearings; i++)
+        m->bearing[i] = (gm_motion_pair){g->bearings[i].body, g->bearings[i].on};
+    for (int i = 0; i < g->n_drags; i++)
+        m->drag[i] = (gm_motion_pair){g->drags[i].body, g->drags[i].on};
+}
+
+gm_status gm_motion_make_rows(gm_motion *motion, gm_error *error)
+{
+    gm_status status = count(motion, error);
+    if (status == GM_OK)
+        status = make_nodes(motion, error);
+    if (status != GM_OK)
+        return status;
+    make_meshes(motion);
+    make_locks(motion);
+    make_pairs(motion);
+    return GM_OK;
+}
+
+/* Usual values: speeds of a hundredth of the largest input speed, deflections that a
+ * tenth of the largest input torque makes on this row alone. */
+void gm_motion_tolerances(const gm_motion *motion, double relative, double *absolute)
+{
+    const gm_description *d = motion->gearset->description;
+    for (int i = 0; i < motion->n_nodes; i++)
+        absolute[i] = relative * 0.01 * d->speed_max;
+    for (int e = 0; e < motion->n_rows; e++) {
+        const gm_motion_row *row = &motion->rows[e];
+        double force = 0.1 * d->torque_max / row->row.g[0];
+        absolute[motion->n_nodes + e] =
+            relative * (force < 0.0 ? -force : force) / row->law.stiffness;
+    }
+}

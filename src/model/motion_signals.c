@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * What can be recorded of a gearset in motion, in this order:
+ *
+ *   body.NAME.w                       rad/s
+ *   mesh.NAME.force, .deflection      N, m along the line of action
+ *   lock.NAME.torque, .w              N.m, rad/s between gear and shaft
+ *   bearing.NAME.radial, .axial       N
+ *   bearing.NAME.torque               N.m, friction
+ */
+#include "model/motion.h"
+
+#include "base/alloc.h"
+
+#include <stdio.h>
+
+enum { SIGNAL_SIZE = GM_NAME_SIZE + 32 };
+
+static int add(gm_motion *m, const char *kind, const char *name, const char *what,
+               const char *unit)
+{
+    char text[SIGNAL_SIZE];
+    (void)snprintf(text, sizeof text, "%s.%s.%s", kind, name, what);
+    char *copy = gm_strdup(text);
+    m->signals[m->n_signals] = (gm_motion_signal){copy, unit};
+    m->n_signals += copy != NULL;
+    return copy != NULL;
+}
+
+static int name_bodies(gm_motion *m)
+{
+    int done = 1;
+    for (int i = 0; i < m->n_nodes && done; i++)
+        done = add(m, "body", gm_motion_node_label(m, i)->name, "w", "rad/s");
+    return done;
+}
+
+static int name_rows(gm_motion *m)
+{
+    const gm_mesh *mesh = m->gearset->description->meshes;
+    int done = 1;
+    for (int i = 0; i < m->gearset->n_meshes && done; i++)
+        done = add(m, "mesh", mesh[i].id.name, "force", "N") &&
+               add(m, "mesh", mesh[i].id.name, "deflection", "m");
+    for (int i = 0; i < m->n_locks && done; i++)
+        done = add(m, "lock", m->locks[i].name, "torque", "N.m") &&
+               add(m, "lock", m->locks[i].name, "w", "rad/s");
+    return done;
+}
+
+static int name_bearings(gm_motion *m)
+{
+    int done = 1;
+    for (int i = 0; i < m->gearset->n_bearings && done; i++) {
+        const char *name = m->gearset->bearings[i].name;
+        done = add(m, "bearing", name, "radial", "N") &&
+               add(m, "bearing", name, "axial", "N") &&
+               add(m, "bearing", name, "torque", "N.m");
+    }
+    return done;
+}
+
+gm_status gm_motion_make_signals(gm_motion *motion, gm_error *error)
+{
+    const gm_gearset *g = motion->gearset;
+    int n = motion->n_nodes + 2 * g->n_meshes + 2 * motion->n_locks + 3 * g->n_bearings;
+    motion->signals = gm_calloc((size_t)n, sizeof *motion->signals);
+    if (!motion->signals || !name_bodies(motion) || !name_rows(motion) ||
+        !name_bearings(motion))
+        return gm_fail(error, GM_ERR_MEMORY, "out of memory");
+    return GM_OK;
+}
+
+void gm_motion_clear_signals(gm_motion *motion)
+{
+    for (int i = 0; i < motion->n_signals; i++)
+        gm_free((void *)motion->signals[i].name);
+    gm_free(motion->signals);
+}
+
+int gm_motion_n_signals(const gm_motion *motion)
+{
+    return motion->n_signals;
+}
+
+gm_motion_signal gm_motion_signal_at(const gm_motion *motion, int i)
+{
+    return motion->signals[i];
+}
+
+void gm_motion_observe(gm_motion *motion, const gm_motion_input *input, const double *x,
+                       double *value)
+{
+    const gm_gearset *g = motion->gearset;
+    (void)input;
+    gm_motion_forces(motion, x);
+    gm_motion_friction_at(motion, x);
+    for (int i = 0; i < motion->n_nodes; i++)
+        *value++ = x[i];
+    for (int i = 0; i < g->n_meshes; i++) {
+        *value++ = motion->force[i];
+        *value++ = x[motion->n_nodes + i];
+    }
+    for (int i = 0; i < motion->n_locks; i++) {
+        int row = motion->locks[i].row;
+        *value++ = motion->force[row] + gm_motion_cone_torque(&motion->locks[i]);
+        *value++ = motion->rate[row];
+    }
+    for (int i = 0; i < g->n_bearings; i++) {
+        const gm_motion_friction *f = &motion->bearing_friction[i];
+        *value++ = f->radial;
+        *value++ = f->axial;
+        *value++ = f->torque;
+    }
+}

@@ -1,0 +1,216 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The Jacobian of the motion against central differences, over the examples in random
+ * gears and random states: flanks in the gap, in their soft entry and in contact, speeds
+ * of any sign, at rest within the band of Coulomb friction, locks in every mode.
+ */
+#include "motion_fixture.h"
+#include "property.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct sparse {
+    int n, entries, *column_start, *row;
+    double *value;
+} sparse;
+
+static void sparse_make(sparse *s, gm_motion *motion)
+{
+    s->n = gm_motion_n_states(motion);
+    s->entries = gm_motion_entries(motion);
+    s->column_start = calloc((size_t)s->n + 1, sizeof(int));
+    s->row = calloc((size_t)s->entries, sizeof(int));
+    s->value = calloc((size_t)s->entries, sizeof(double));
+    assert_true(s->column_start && s->row && s->value);
+    gm_motion_pattern(motion, s->column_start, s->row);
+}
+
+static void sparse_clear(sparse *s)
+{
+    free(s->column_start);
+    free(s->row);
+    free(s->value);
+}
+
+static int random_gear(const gm_path_part *path, uint64_t *seed)
+{
+    int k = (int)(random_unit(seed) * (path->n_gears + 1));
+    return k == path->n_gears ? 0 : path->gears[k].number;
+}
+
+static void random_gears(moving *m, uint64_t *seed)
+{
+    for (int p = 0; p < m->d->n_paths; p++)
+        m->input.gear[p] = random_gear(&m->d->paths[p], seed);
+}
+
+static void random_state(moving *m, uint64_t *seed)
+{
+    double w[GM_MAX_FLANGES] = {0.0}, scale = random_scale(seed, 1e-2, 300.);
+    int changed;
+    random_gears(m, seed);
+    for (int f = 0; f <= m->d->n_paths; f++)
+        w[f] = random_between(seed, -scale, scale);
+    moving_start(m, w);
+    double *absolute = calloc((size_t)m->n, sizeof *absolute);
+    assert_non_null(absolute);
+    gm_motion_tolerances(m->motion, 1., absolute);
+    for (int i = 0; i < m->n; i++) /* speeds to a few percent, deflections over the gap */
+        m->x[i] += absolute[i] * random_between(seed, -3., 3.) *
+                   (random_unit(seed) < 0.5 ? 1e-2 : 1.);
+    for (int k = 0; k < 2 && random_unit(seed) < 0.6; k++) {
+        random_gears(m, seed); /* some locks begin to synchronise */
+        assert_int_equal(gm_motion_handle(m->motion, &m->input, m->x, &changed, NULL),
+                         GM_OK);
+    }
+    free(absolute);
+}
+
+/* Difference quotients of the rates by x_j with two step lengths: where they disagree, a
+ * kink lies between, and no derivative can be expected from them. */
+static void difference(moving *m, int j, double h, double *work, double *quotient)
+{
+    double x_j = m->x[j], *low = work, *high = work + m->n;
+    m->x[j] = x_j - h;
+    assert_int_equal(gm_motion_rates(m->motion, &m->input, m->x, low), 0);
+    m->x[j] = x_j + h;
+    assert_int_equal(gm_motion_rates(m->motion, &m->input, m->x, high), 0);
+    m->x[j] = x_j;
+    for (int i = 0; i < m->n; i++)
+        quotient[i] = (high[i] - low[i]) / (2. * h);
+}
+
+typedef struct tally {
+    long compared, kinks;
+    double worst;
+} tally;
+
+static void compare_column(moving *m, const sparse *s, int j, double h, const double *dx,
+                           double *work, tally *count)
+{
+    double *coarse = work, *fine = work + m->n, *dense = work + 2 * m->n;
+    difference(m, j, 2. * h, work + 3 * m->n, coarse);
+    difference(m, j, h, work + 3 * m->n, fine);
+    memset(dense, 0, (size_t)m->n * sizeof *dense);
+    for (int k = s->column_start[j]; k < s->column_start[j + 1]; k++)
+        dense[s->row[k]] += s->value[k];
+    for (int i = 0; i < m->n; i++) {
+        double size = fabs(fine[i]) + fabs(dense[i]);
+        double rounding = 1e-14 * (fabs(dx[i]) + 1e6) / h;
+        double tolerance = 2e-5 * size + rounding;
+        count->compared++;
+        if (fabs(coarse[i] - fine[i]) > tolerance) {
+            count->kinks++;
+            continue;
+        }
+        if (!(fabs(dense[i] - fine[i]) <= 2. * tolerance))
+            fail_msg("d rate %d / d x %d: %.9g, by differences %.9g and %.9g", i, j,
+                     dense[i], fine[i], coarse[i]);
+    }
+}
+
+static tally compare(moving *m, uint64_t *seed, int states)
+{
+    tally count = {0, 0, 0.};
+    sparse s;
+    sparse_make(&s, m->motion);
+    double *work = calloc(6 * (size_t)m->n, sizeof *work);
+    double *unit = calloc((size_t)m->n, sizeof *unit);
+    assert_true(work && unit);
+    gm_motion_tolerances(m->motion, 1e-5, unit);
+    for (int k = 0; k < states; k++) {
+        random_state(m, seed);
+        double *dx = work + 5 * m->n;
+        assert_int_equal(gm_motion_jacobian(m->motion, &m->input, m->x, s.value), 0);
+        assert_int_equal(gm_motion_rates(m->motion, &m->input, m->x, dx), 0);
+        for (int j = 0; j < m->n; j++)
+            compare_column(m, &s, j, unit[j], dx, work, &count);
+    }
+    free(work);
+    free(unit);
+    sparse_clear(&s);
+    return count;
+}
+
+static void check_example(const char *name, uint64_t seed)
+{
+    moving m;
+    char path[512];
+    assert_true(snprintf(path, sizeof path, MOTION_EXAMPLES "%s", name) < 512);
+    moving_read(&m, path);
+    tally count = compare(&m, &seed, 60);
+    print_message("%s: %ld derivatives, %ld beside kinks\n", name, count.compared,
+                  count.kinks);
+    /* few differences may be lost to kinks */
+    assert_true(count.kinks < count.compared / 100);
+    moving_clear(&m);
+}
+
+static void the_examples_have_exact_derivatives(void **state)
+{
+    (void)state;
+    check_example("dct7.yaml", 1);
+    check_example("mt5.yaml", 2);
+}
+
+static void its_pattern_has_the_diagonal_and_columns_ascend(void **state)
+{
+    (void)state;
+    moving m;
+    sparse s;
+    moving_read(&m, MOTION_EXAMPLES "dct7.yaml");
+    sparse_make(&s, m.motion);
+    assert_int_equal(s.column_start[0], 0);
+    assert_int_equal(s.column_start[s.n], s.entries);
+    for (int j = 0; j < s.n; j++) {
+        int diagonal = 0;
+        for (int k = s.column_start[j]; k < s.column_start[j + 1]; k++) {
+            assert_in_range(s.row[k], 0, s.n - 1);
+            assert_true(k == s.column_start[j] || s.row[k] > s.row[k - 1]);
+            diagonal |= s.row[k] == j;
+        }
+        assert_true(diagonal);
+    }
+    sparse_clear(&s);
+    moving_clear(&m);
+}
+
+/* A torque on a flange turns its own body and nothing else at once. */
+static void the_torque_column_is_a_difference_too(void **state)
+{
+    (void)state;
+    moving m;
+    double speed[GM_MAX_FLANGES] = {20., 100., 150.};
+    moving_read(&m, MOTION_EXAMPLES "dct7.yaml");
+    m.input.gear[0] = 3;
+    moving_start(&m, speed);
+    double *work = calloc(3 * (size_t)m.n, sizeof *work);
+    assert_non_null(work);
+    for (int f = 0; f <= m.d->n_paths; f++) {
+        double *low = work, *high = work + m.n, *column = work + 2 * m.n;
+        assert_int_equal(gm_motion_torque_column(m.motion, &m.input, m.x, f, column), 0);
+        m.input.torque[f] = -1.;
+        (void)gm_motion_rates(m.motion, &m.input, m.x, low);
+        m.input.torque[f] = 1.;
+        (void)gm_motion_rates(m.motion, &m.input, m.x, high);
+        m.input.torque[f] = 0.;
+        for (int i = 0; i < m.n; i++)
+            assert_true(fabs(column[i] - 0.5 * (high[i] - low[i])) <=
+                        1e-10 * (1. + fabs(column[i]))); /* linear: rounding only */
+        assert_true(column[gm_motion_speed_state(m.motion, f)] > 0.);
+    }
+    free(work);
+    moving_clear(&m);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_examples_have_exact_derivatives),
+        cmocka_unit_test(its_pattern_has_the_diagonal_and_columns_ascend),
+        cmocka_unit_test(the_torque_column_is_a_difference_too),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
