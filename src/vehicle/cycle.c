@@ -189,3 +189,19 @@ double gm_cycle_speed(const gm_cycle *cycle, double t, double *acceleration)
     *acceleration = (after - before) / GM_CYCLE_SMOOTHING;
     return (s1 - s0) / GM_CYCLE_SMOOTHING;
 }
+
+/* First time of the trace after t. */
+static double next_point(const gm_cycle *c, double t)
+{
+    if (t < 0.0)
+        return 0.0;
+    if (t >= gm_cycle_duration(c))
+        return (double)INFINITY;
+    return c->time[interval(c, t) + 1];
+}
+
+double gm_cycle_next(const gm_cycle *cycle, double t)
+{
+    const double half = 0.5 * GM_CYCLE_SMOOTHING;
+    return fmin(next_point(cycle, t + half) - half, next_point(cycle, t - half) + half);
+}

@@ -24,11 +24,19 @@ static double ramp(double x, double *slope)
     return 0.5 * (x + root);
 }
 
-/* The share of `rate` that may still wind the integral up. */
-static double windup(const gm_vehicle *c, double integral, double error)
+/* Share of the speed error that may still wind the integral up; *slope: d share / d
+ * integral. */
+static double windup(const gm_vehicle *c, double integral, double error, double *slope)
 {
-    double part = c->driver_integral * integral / c->driver_windup;
-    return part * error > 0.0 ? fmax(0.0, 1.0 - part * part * part * part) : 1.0;
+    double by = c->driver_integral / c->driver_windup, part = by * integral;
+    double cubed = part * part * part;
+    *slope = 0.0;
+    if (part * error <= 0.0)
+        return 1.0;
+    if (fabs(part) >= 1.0)
+        return 0.0;
+    *slope = -4.0 * by * cubed;
+    return 1.0 - part * cubed;
 }
 
 static void brakes(const gm_vehicle *c, const gm_driver_view *s, double force,
@@ -60,9 +68,9 @@ gm_driver_act gm_driver(const gm_vehicle *vehicle, const gm_driver_view *view)
     a.torque_v = -c->driver_gain * to_engine;
     a.torque_i = c->driver_integral * to_engine;
     brakes(c, view, force, -c->driver_gain, c->driver_integral, work, &a);
-    double open = windup(c, view->integral, error);
+    double closing, open = windup(c, view->integral, error, &closing);
     a.integral_rate = work * open * error - (1.0 - work) * view->integral / RELEASE_TIME;
     a.rate_v = -work * open;
-    a.rate_i = -(1.0 - work) / RELEASE_TIME;
+    a.rate_i = work * closing * error - (1.0 - work) / RELEASE_TIME;
     return a;
 }

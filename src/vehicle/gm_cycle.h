@@ -55,6 +55,10 @@ double gm_cycle_distance(const gm_cycle *cycle); /* m */
  *  after the end the trace keeps its edge value. */
 double gm_cycle_speed(const gm_cycle *cycle, double t, double *acceleration);
 
+/** The first time after t at which the smoothed speed changes its law (between such times
+ *  it is a polynomial); infinite after the last. */
+double gm_cycle_next(const gm_cycle *cycle, double t);
+
 #ifdef __cplusplus
 }
 #endif

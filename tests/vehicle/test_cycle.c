@@ -97,6 +97,24 @@ static void smoothing_keeps_distance_and_stays_near(void **state)
     gm_cycle_destroy(c);
 }
 
+/* Between the times that gm_cycle_next names, the acceleration is a straight line. */
+static void laws_change_where_it_is_said(void **state)
+{
+    (void)state;
+    gm_cycle *c = named("ece15");
+    int n = 0;
+    double t = 0.0, next = gm_cycle_next(c, 0.0);
+    for (; isfinite(next); t = next, next = gm_cycle_next(c, t), n++) {
+        double a[3], third = (next - t) / 4.0;
+        assert_true(next > t);
+        for (int k = 0; k < 3; k++)
+            (void)gm_cycle_speed(c, t + (k + 1) * third, &a[k]);
+        assert_true(fabs(a[0] - 2.0 * a[1] + a[2]) < 1e-12);
+    }
+    assert_true(n > GM_ECE15_POINTS && n < 2 * GM_ECE15_POINTS);
+    gm_cycle_destroy(c);
+}
+
 static void broken_cycles_are_refused(void **state)
 {
     (void)state;
@@ -142,6 +160,7 @@ int main(void)
         cmocka_unit_test(wltc_has_the_regulations_sums),
         cmocka_unit_test(ece15_stands_and_holds_as_the_regulation_says),
         cmocka_unit_test(smoothing_keeps_distance_and_stays_near),
+        cmocka_unit_test(laws_change_where_it_is_said),
         cmocka_unit_test(broken_cycles_are_refused),
         cmocka_unit_test(no_memory_is_an_error),
     };

@@ -79,6 +79,7 @@ static void derivatives_are_exact(void **state)
         u = gm_driver(&car, &up), d = gm_driver(&car, &down);
         assert_true(near(a.torque_i, (u.torque - d.torque) / (2 * h), 1e3));
         assert_true(near(a.brake_i, (u.brake - d.brake) / (2 * h), 1e4));
+        assert_true(near(a.rate_i, (u.integral_rate - d.integral_rate) / (2 * h), 1.0));
         up = down = at;
         up.w_engine += h, down.w_engine -= h;
         u = gm_driver(&car, &up), d = gm_driver(&car, &down);

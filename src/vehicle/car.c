@@ -1,0 +1,221 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+#include "vehicle/car.h"
+
+#include <math.h>
+#include <string.h>
+
+const double gm_car_typical[GM_CAR_STATES] = {
+    [GM_CAR_ENGINE_SPEED] = 200.0, [GM_CAR_ENGINE_TORQUE] = 100.0,
+    [GM_CAR_FLYWHEEL] = 0.1,       [GM_CAR_DRUM_SPEED] = 200.0,
+    [GM_CAR_SHAFTS] = 0.1,         [GM_CAR_SPEED] = 10.0,
+    [GM_CAR_INTEGRAL] = 1.0,       [GM_CAR_DISTANCE] = 1e3,
+    [GM_CAR_ENGINE_WORK] = 1e5,    [GM_CAR_CLUTCH_LOSS] = 1e4,
+    [GM_CAR_DAMPER_LOSS] = 1e3,    [GM_CAR_ROAD_LOSS] = 1e5,
+    [GM_CAR_BRAKE_LOSS] = 1e5,     [GM_CAR_GEARSET_WORK] = 1e5,
+};
+
+const char *gm_car_state_name(int i)
+{
+    static const char *const names[GM_CAR_STATES] = {
+        [GM_CAR_ENGINE_SPEED] = "engine speed",
+        [GM_CAR_ENGINE_TORQUE] = "engine torque",
+        [GM_CAR_FLYWHEEL] = "twist of the flywheel",
+        [GM_CAR_DRUM_SPEED] = "speed of the clutch drum",
+        [GM_CAR_SHAFTS] = "twist of the driveshafts",
+        [GM_CAR_SPEED] = "vehicle speed",
+        [GM_CAR_INTEGRAL] = "integral part of the driver",
+        [GM_CAR_DISTANCE] = "distance",
+        [GM_CAR_ENGINE_WORK] = "work of the engine",
+        [GM_CAR_CLUTCH_LOSS] = "loss of the clutches",
+        [GM_CAR_DAMPER_LOSS] = "loss of the dampers",
+        [GM_CAR_ROAD_LOSS] = "loss on the road",
+        [GM_CAR_BRAKE_LOSS] = "loss of the brakes",
+        [GM_CAR_GEARSET_WORK] = "work on the gearset",
+    };
+    return names[i];
+}
+
+/* ---- one instant ---- */
+
+static void clutch_at(const gm_trip_parts *parts, double t, const double *x, int p,
+                      gm_car_point *point)
+{
+    const gm_vehicle *v = parts->vehicle;
+    double slope;
+    double capacity = gm_clutch_capacity(v, x[GM_CAR_ENGINE_SPEED], &slope);
+    double s = tanh((x[GM_CAR_DRUM_SPEED] - point->speed[1 + p]) / v->clutch_slip);
+    double share = gm_gear_plan_share(parts->plan, p, t);
+    double by_slip = share * capacity * (1.0 - s * s) / v->clutch_slip;
+    double *by = point->clutch_by[p];
+    memset(by, 0, GM_CAR_COLUMNS * sizeof *by);
+    point->share[p] = share;
+    point->clutch[p] = share * capacity * s;
+    by[GM_CAR_ENGINE_SPEED] = share * slope * s;
+    by[GM_CAR_DRUM_SPEED] = by_slip;
+    by[GM_CAR_DYNAMIC + 1 + p] = -by_slip;
+}
+
+static gm_driver_act driver_at(const gm_trip_parts *parts, double t, const double *x)
+{
+    gm_driver_view see = {.v = x[GM_CAR_SPEED],
+                          .integral = x[GM_CAR_INTEGRAL],
+                          .w_engine = x[GM_CAR_ENGINE_SPEED],
+                          .ratio = gm_gear_plan_ratio(parts->plan, t)};
+    see.v_ref = gm_cycle_speed(parts->cycle, t, &see.a_ref);
+    return gm_driver(parts->vehicle, &see);
+}
+
+void gm_car_at(const gm_trip_parts *parts, double t, const double *x,
+               const double *flange_speed, gm_car_point *point)
+{
+    const gm_vehicle *v = parts->vehicle;
+    int n_paths = parts->gearset->n_paths;
+    point->act = driver_at(parts, t, x);
+    point->target = gm_engine_target(v, point->act.torque, x[GM_CAR_ENGINE_SPEED],
+                                     &point->target_demand, &point->target_w);
+    point->speed[0] = parts->forward * flange_speed[0];
+    for (int p = 0; p < n_paths; p++) {
+        point->speed[1 + p] = flange_speed[1 + p];
+        clutch_at(parts, t, x, p, point);
+    }
+    point->flywheel =
+        v->flywheel_stiffness * x[GM_CAR_FLYWHEEL] +
+        v->flywheel_damping * (x[GM_CAR_ENGINE_SPEED] - x[GM_CAR_DRUM_SPEED]);
+    point->shafts =
+        v->shaft_stiffness * x[GM_CAR_SHAFTS] +
+        v->shaft_damping * (point->speed[0] - x[GM_CAR_SPEED] / v->wheel_radius);
+    point->road = gm_road_load(v, x[GM_CAR_SPEED], &point->road_slope);
+}
+
+void gm_car_torques(const gm_trip_parts *parts, const gm_car_point *point,
+                    double torque[GM_MAX_FLANGES])
+{
+    memset(torque, 0, GM_MAX_FLANGES * sizeof *torque);
+    torque[0] = -parts->forward * point->shafts;
+    for (int p = 0; p < parts->gearset->n_paths; p++)
+        torque[1 + p] = point->clutch[p];
+}
+
+void gm_car_torque_by(const gm_trip_parts *parts, const gm_car_point *point, int flange,
+                      double by[GM_CAR_COLUMNS])
+{
+    const gm_vehicle *v = parts->vehicle;
+    memset(by, 0, GM_CAR_COLUMNS * sizeof *by);
+    if (flange > 0) {
+        memcpy(by, point->clutch_by[flange - 1], GM_CAR_COLUMNS * sizeof *by);
+        return;
+    }
+    by[GM_CAR_SHAFTS] = -parts->forward * v->shaft_stiffness;
+    by[GM_CAR_SPEED] = parts->forward * v->shaft_damping / v->wheel_radius;
+    by[GM_CAR_DYNAMIC] = -v->shaft_damping; /* forward squared is one */
+}
+
+/* ---- rates ---- */
+
+static double moved_mass(const gm_vehicle *v)
+{
+    return v->mass + v->wheel_inertia / (v->wheel_radius * v->wheel_radius);
+}
+
+static double carried(const gm_trip_parts *parts, const gm_car_point *point)
+{
+    double sum = 0.0;
+    for (int p = 0; p < parts->gearset->n_paths; p++)
+        sum += point->clutch[p];
+    return sum;
+}
+
+static void account(const gm_trip_parts *parts, const gm_car_point *point,
+                    const double *x, double *dx)
+{
+    const gm_vehicle *v = parts->vehicle;
+    double w_e = x[GM_CAR_ENGINE_SPEED], w_d = x[GM_CAR_DRUM_SPEED];
+    double shafts_slip = point->speed[0] - x[GM_CAR_SPEED] / v->wheel_radius;
+    dx[GM_CAR_DISTANCE] = x[GM_CAR_SPEED];
+    dx[GM_CAR_ENGINE_WORK] = x[GM_CAR_ENGINE_TORQUE] * w_e;
+    dx[GM_CAR_DAMPER_LOSS] = v->flywheel_damping * (w_e - w_d) * (w_e - w_d) +
+                             v->shaft_damping * shafts_slip * shafts_slip;
+    dx[GM_CAR_ROAD_LOSS] = point->road * x[GM_CAR_SPEED];
+    dx[GM_CAR_BRAKE_LOSS] = point->act.brake * x[GM_CAR_SPEED];
+    dx[GM_CAR_CLUTCH_LOSS] = 0.0;
+    dx[GM_CAR_GEARSET_WORK] = -point->shafts * point->speed[0];
+    for (int p = 0; p < parts->gearset->n_paths; p++) {
+        dx[GM_CAR_CLUTCH_LOSS] += point->clutch[p] * (w_d - point->speed[1 + p]);
+        dx[GM_CAR_GEARSET_WORK] += point->clutch[p] * point->speed[1 + p];
+    }
+}
+
+void gm_car_rates(const gm_trip_parts *parts, const gm_car_point *point, const double *x,
+                  double *dx)
+{
+    const gm_vehicle *v = parts->vehicle;
+    dx[GM_CAR_ENGINE_SPEED] =
+        (x[GM_CAR_ENGINE_TORQUE] - point->flywheel) / v->engine_inertia;
+    dx[GM_CAR_ENGINE_TORQUE] = (point->target - x[GM_CAR_ENGINE_TORQUE]) / v->torque_lag;
+    dx[GM_CAR_FLYWHEEL] = x[GM_CAR_ENGINE_SPEED] - x[GM_CAR_DRUM_SPEED];
+    dx[GM_CAR_DRUM_SPEED] = (point->flywheel - carried(parts, point)) / v->drum_inertia;
+    dx[GM_CAR_SHAFTS] = point->speed[0] - x[GM_CAR_SPEED] / v->wheel_radius;
+    dx[GM_CAR_SPEED] =
+        (point->shafts / v->wheel_radius - point->road - point->act.brake) /
+        moved_mass(v);
+    dx[GM_CAR_INTEGRAL] = point->act.integral_rate;
+    account(parts, point, x, dx);
+}
+
+static void engine_by(const gm_vehicle *v, const gm_car_point *point,
+                      double by[GM_CAR_DYNAMIC][GM_CAR_COLUMNS])
+{
+    double *speed = by[GM_CAR_ENGINE_SPEED], *torque = by[GM_CAR_ENGINE_TORQUE];
+    speed[GM_CAR_ENGINE_SPEED] = -v->flywheel_damping / v->engine_inertia;
+    speed[GM_CAR_ENGINE_TORQUE] = 1.0 / v->engine_inertia;
+    speed[GM_CAR_FLYWHEEL] = -v->flywheel_stiffness / v->engine_inertia;
+    speed[GM_CAR_DRUM_SPEED] = v->flywheel_damping / v->engine_inertia;
+    torque[GM_CAR_ENGINE_SPEED] = point->target_w / v->torque_lag;
+    torque[GM_CAR_ENGINE_TORQUE] = -1.0 / v->torque_lag;
+    torque[GM_CAR_SPEED] = point->target_demand * point->act.torque_v / v->torque_lag;
+    torque[GM_CAR_INTEGRAL] = point->target_demand * point->act.torque_i / v->torque_lag;
+    by[GM_CAR_FLYWHEEL][GM_CAR_ENGINE_SPEED] = 1.0;
+    by[GM_CAR_FLYWHEEL][GM_CAR_DRUM_SPEED] = -1.0;
+}
+
+static void drum_by(const gm_trip_parts *parts, const gm_car_point *point,
+                    double by[GM_CAR_COLUMNS])
+{
+    const gm_vehicle *v = parts->vehicle;
+    by[GM_CAR_ENGINE_SPEED] = v->flywheel_damping / v->drum_inertia;
+    by[GM_CAR_FLYWHEEL] = v->flywheel_stiffness / v->drum_inertia;
+    by[GM_CAR_DRUM_SPEED] = -v->flywheel_damping / v->drum_inertia;
+    for (int p = 0; p < parts->gearset->n_paths; p++)
+        for (int k = 0; k < GM_CAR_COLUMNS; k++)
+            by[k] -= point->clutch_by[p][k] / v->drum_inertia;
+}
+
+void gm_car_rates_by(const gm_trip_parts *parts, const gm_car_point *point,
+                     double by[GM_CAR_DYNAMIC][GM_CAR_COLUMNS])
+{
+    const gm_vehicle *v = parts->vehicle;
+    double r = v->wheel_radius, m = moved_mass(v);
+    memset(by, 0, GM_CAR_DYNAMIC * sizeof by[0]);
+    engine_by(v, point, by);
+    drum_by(parts, point, by[GM_CAR_DRUM_SPEED]);
+    by[GM_CAR_SHAFTS][GM_CAR_DYNAMIC] = parts->forward;
+    by[GM_CAR_SHAFTS][GM_CAR_SPEED] = -1.0 / r;
+    double *speed = by[GM_CAR_SPEED];
+    speed[GM_CAR_SHAFTS] = v->shaft_stiffness / (r * m);
+    speed[GM_CAR_DYNAMIC] = parts->forward * v->shaft_damping / (r * m);
+    speed[GM_CAR_SPEED] =
+        -(v->shaft_damping / (r * r) + point->road_slope + point->act.brake_v) / m;
+    speed[GM_CAR_INTEGRAL] = -point->act.brake_i / m;
+    speed[GM_CAR_ENGINE_SPEED] = -point->act.brake_w / m;
+    by[GM_CAR_INTEGRAL][GM_CAR_SPEED] = point->act.rate_v;
+    by[GM_CAR_INTEGRAL][GM_CAR_INTEGRAL] = point->act.rate_i;
+}
+
+double gm_car_stored(const gm_vehicle *v, const double *x)
+{
+    double w_e = x[GM_CAR_ENGINE_SPEED], w_d = x[GM_CAR_DRUM_SPEED];
+    return 0.5 * (v->engine_inertia * w_e * w_e + v->drum_inertia * w_d * w_d +
+                  moved_mass(v) * x[GM_CAR_SPEED] * x[GM_CAR_SPEED] +
+                  v->flywheel_stiffness * x[GM_CAR_FLYWHEEL] * x[GM_CAR_FLYWHEEL] +
+                  v->shaft_stiffness * x[GM_CAR_SHAFTS] * x[GM_CAR_SHAFTS]);
+}
