@@ -321,8 +321,15 @@ class Variation:
             self.vary(s, "cone_torque_Nm", "cone_radius_mm", "cone_width_mm",
                       "cone_clearance_mm")
         for mesh in data["meshes"].values():
-            mesh["loss"] = {"minimum_line_load_N_mm": 150.0}
-            self.vary(mesh["loss"], "minimum_line_load_N_mm")
+            mesh["loss"] = self.rng.choice([
+                {"minimum_line_load_N_mm": 150.0},
+                {"method": "iso14179_1", "minimum_line_load_N_mm": 50.0},
+                {"model": "torque_dependent", "idle_torque_Nm": 0.05,
+                 "torque_share": 0.006},
+                {"model": "constant", "efficiency": 0.99}])
+            self.vary(mesh["loss"], *[k for k in mesh["loss"]
+                                      if k in ("minimum_line_load_N_mm",
+                                               "idle_torque_Nm", "torque_share")])
 
     # ratios
 

@@ -182,13 +182,25 @@ static gm_status check_partners(const gm_description *d, int mesh, gm_error *err
     return GM_OK;
 }
 
-static gm_status check_mesh(const gm_description *d, int mesh, gm_error *error)
+static gm_status check_loss(const gm_description *d, const gm_mesh *m, gm_error *error)
 {
-    const gm_mesh *m = &d->meshes[mesh];
     if (m->loss == GM_MESH_CONSTANT && isnan(m->efficiency))
         return gm_part_fail(d, "mesh", &m->id, error,
                             "the loss model constant needs an efficiency");
-    gm_status status = check_partners(d, mesh, error);
+    if (m->loss == GM_MESH_TORQUE_DEPENDENT &&
+        (isnan(m->idle_torque) || isnan(m->torque_share)))
+        return gm_part_fail(d, "mesh", &m->id, error,
+                            "the loss model torque_dependent needs idle_torque_Nm and "
+                            "torque_share");
+    return GM_OK;
+}
+
+static gm_status check_mesh(const gm_description *d, int mesh, gm_error *error)
+{
+    const gm_mesh *m = &d->meshes[mesh];
+    gm_status status = check_loss(d, m, error);
+    if (status == GM_OK)
+        status = check_partners(d, mesh, error);
     if (status == GM_OK)
         status = check_mates(d, m, error);
     if (status == GM_OK)

@@ -286,7 +286,7 @@ static gm_status check_effect(const gm_field_reader *r, const gm_slot *s)
     if (!f->only_key || !s->node)
         return GM_OK;
     const char *word = chosen(s->in, f->only_key);
-    if (strcmp(word, f->only_word) == 0)
+    if (gm_schema_has_effect(f, word))
         return GM_OK;
     return gm_description_fail(r->d->file, s->node->line, s->in->element, GM_ERR_FORMAT,
                                r->error, "%s has an effect only with %s %s, found %s %s",

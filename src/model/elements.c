@@ -7,17 +7,13 @@
 
 #include <math.h>
 
-/* With f on both sides of the mean force, the entering power loses exactly the share
- * kappa: (F - f/2)/(F + f/2) = 1 - kappa, so f = |F| kappa q with q = 2/(2 - kappa), and
- * df/dkappa = |F| q^2. */
 gm_mesh_friction gm_mesh_friction_at(const gm_mesh_element *mesh, double F, double v_t)
 {
-    gm_mesh_share s = gm_mesh_loss_share(&mesh->law, fabs(F) / mesh->contacts, v_t);
-    double q = 2.0 / (2.0 - s.kappa), slope = s.d_force / mesh->contacts;
-    return (gm_mesh_friction){.value = fabs(F) * s.kappa * q,
-                              .d_force = (F < 0.0 ? -1.0 : 1.0) *
-                                         (s.kappa * q + fabs(F) * slope * q * q),
-                              .d_speed = fabs(F) * s.d_speed * q * q};
+    int n = mesh->contacts;
+    gm_mesh_force f = gm_mesh_law_force(&mesh->law, fabs(F) / n, v_t);
+    return (gm_mesh_friction){.value = n * f.value,
+                              .d_force = F < 0.0 ? -f.d_force : f.d_force,
+                              .d_speed = n * f.d_speed};
 }
 
 gm_speed_torque gm_drag_torque(const gm_gearset *gearset, const gm_drag_element *drag,

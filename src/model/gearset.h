@@ -73,8 +73,8 @@ typedef struct gm_mesh_friction {
     double d_speed; /* by the pitch-line speed v_t, N.s/m */
 } gm_mesh_friction;
 
-/** At row force F [N] and pitch-line speed v_t >= 0 [m/s]: the entering power loses the
- *  share kappa of the mesh's law. Parallel contacts share the force equally. */
+/** At row force F [N] and pitch-line speed v_t >= 0 [m/s], by the mesh's law. Parallel
+ *  contacts share the force equally. */
 gm_mesh_friction gm_mesh_friction_at(const gm_mesh_element *mesh, double F, double v_t);
 
 struct gm_gearset {

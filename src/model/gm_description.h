@@ -92,9 +92,12 @@ typedef struct gm_wheel {
 } gm_wheel;
 
 typedef enum gm_mesh_loss_model {
-    GM_MESH_CONSTANT, /* efficiency given */
-    GM_MESH_ISO14179_2
+    GM_MESH_CONSTANT,             /* efficiency */
+    GM_MESH_TORQUE_DEPENDENT,     /* idle_torque + torque_share |T| */
+    GM_MESH_TEMPERATURE_DEPENDENT /* by a standard, with the oil's viscosity */
 } gm_mesh_loss_model;
+
+typedef enum gm_mesh_method { GM_MESH_ISO14179_2, GM_MESH_ISO14179_1 } gm_mesh_method;
 
 typedef enum gm_contact_model {
     GM_CONTACT_FILM,  /* an oil film: entered softly, damped also in the gap */
@@ -117,7 +120,10 @@ typedef struct gm_mesh {
     gm_label id;
     int wheel[2];
     gm_mesh_loss_model loss;
-    double efficiency;        /* constant */
+    gm_mesh_method method;    /* temperature dependent */
+    double efficiency;        /* constant; NAN: not given */
+    double idle_torque;       /* torque dependent: at wheel[0], N.m; NAN: not given */
+    double torque_share;      /* torque dependent: of the torque that enters; NAN */
     double minimum_line_load; /* lower limit of F_bt/b in the friction coefficient, N/m */
     gm_flanks flanks;
 } gm_mesh;

@@ -55,8 +55,7 @@ static int find_kinks(const gm_gearset *gearset, int p, int number, mesh_kink ki
 static double least_line_load(const gm_mesh_law *law, double force, double slide)
 {
     (void)slide;
-    return law->model == GM_MESH_ISO14179_2 && force > 0.0 ? law->minimum_force / force
-                                                           : 0.0;
+    return law->minimum_force > 0.0 && force > 0.0 ? law->minimum_force / force : 0.0;
 }
 
 static double end_of_boundary_friction(const gm_mesh_law *law, double force, double slide)

@@ -38,14 +38,22 @@ double gm_pair_loss_factor(const gm_pair *pair);
 /** Equivalent radius of curvature at the pitch point rho_redC [m], ISO/TR 14179-2. */
 double gm_pair_curvature(const gm_pair *pair);
 
-/** A mesh's loss law, ready for evaluation. */
+/** ISO/TR 14179-1: mesh mechanical advantage M over cos^2 beta_w, > 0. */
+double gm_pair_advantage(const gm_pair *pair);
+
+/** A mesh's loss law, ready for evaluation. Fields of other models are 0. */
 typedef struct gm_mesh_law {
     gm_mesh_loss_model model;
-    double H_V;
-    double constant;      /* loss share 1 - eta of the constant model */
+    double constant;      /* constant: loss share 1 - eta */
+    double idle_force;    /* torque dependent: idle torque / base radius, N */
+    double torque_share;  /* torque dependent: of the force that enters */
+    double H_V;           /* temperature dependent, Schlenk and Ohlendorf: */
     double factor;        /* mu at F_bt = 1 N and v_SigmaC = 1 m/s */
     double sliding_ratio; /* v_SigmaC / v_t = 2 sin(alpha_wt) */
     double minimum_force; /* F_bt below which mu stays constant, N */
+    double share_1;       /* ISO/TR 14179-1: share at K = 1 N/mm2, v_t = 1 m/s; 0: not
+                             chosen */
+    double K_per_force;   /* K factor per newton of F_bt, 1/mm2 */
 } gm_mesh_law;
 
 /** roughness: mean Ra of both flanks [m], 0.1e-6 to 2e-6. The pair must be one that
@@ -57,21 +65,38 @@ gm_mesh_law gm_mesh_law_make(const gm_mesh *mesh, const gm_pair *pair, double ro
  *  loss over speed [m/s]. */
 #define GM_MESH_MIN_SLIDING_SPEED 0.2
 
+/** Friction force along the line of action [N], >= 0: half of it adds to the force F_bt
+ *  on the driving gear, half is missing at the driven one. */
+typedef struct gm_mesh_force {
+    double value;
+    double d_force; /* by F_bt */
+    double d_speed; /* by v_t, N.s/m */
+} gm_mesh_force;
+
+/** Friction at transverse base-tangent force F_bt >= 0 [N], the mean of what enters and
+ *  leaves, and pitch-line speed v_t >= 0 [m/s]. The loss power is its value times
+ *  v_t cos(alpha_wt). */
+gm_mesh_force gm_mesh_law_force(const gm_mesh_law *law, double F_bt, double v_t);
+
 typedef struct gm_mesh_share {
     double kappa; /* loss as a share of the power that enters the mesh, 0 <= kappa < 1 */
     double d_force; /* d kappa / dF_bt, 1/N */
     double d_speed; /* d kappa / d v_t, s/m */
 } gm_mesh_share;
 
-/** Loss share mu H_V at transverse base-tangent force F_bt >= 0 [N] and pitch-line speed
- *  v_t >= 0 [m/s] (Schlenk's mu, ISO/TR 14179-2; v_SigmaC >= 0.2 m/s and mu <= 0.12:
- *  boundary friction at standstill; v_t <= 50 m/s; F_bt/b >= minimum line load).
- *  Continuous; the derivatives are exact on each side of the limits. */
+/** Loss share of the constant and temperature dependent models at F_bt >= 0 [N] and
+ *  v_t >= 0 [m/s]. iso14179_2: mu H_V with Schlenk's mu; v_SigmaC >= 0.2 m/s and
+ *  mu <= 0.12: boundary friction at standstill; v_t <= 50 m/s; F_bt/b >= minimum line
+ *  load. Continuous; the derivatives are exact on each side of the limits. */
 gm_mesh_share gm_mesh_loss_share(const gm_mesh_law *law, double F_bt, double v_t);
 
 /** Schlenk's coefficient of friction alone, in the standard's units: F_bt/b [N/mm],
  *  v_sigma_c [m/s], rho_red [mm], eta [mPa.s], Ra [um]. No limits applied. */
 double gm_schlenk_mu(double line_load, double v_sigma_c, double rho_red, double eta,
                      double Ra, double X_L);
+
+/** Mesh coefficient of friction f_m of ISO/TR 14179-1: nu [mm2/s], K [N/mm2], v_t [m/s].
+ *  No limits applied. */
+double gm_iso14179_1_f_m(double nu, double K, double v_t);
 
 #endif

@@ -115,3 +115,20 @@ double gm_pair_curvature(const gm_pair *pair)
     double c1 = (pair->z[1] < 0 ? -1. : 1.) / pair->d_w[1];
     return 0.5 * sin(pair->alpha_wt) / (cos(pair->beta_b) * fabs(c0 + c1));
 }
+
+/* H_s and H_t of ISO/TR 14179-1 (see mesh.c), i the gear whose tip ends the contact:
+ * (1 + z_i / z_other) (...) is both of its formulas, with z < 0 for a ring. */
+static double contact_end(const gm_pair *pair, int i)
+{
+    double c = cos(pair->alpha_wt), tip = pair->d_a[i] / pair->d_w[i];
+    double share = 1. + (double)pair->z[i] / pair->z[1 - i];
+    return share * (sqrt(fmax(tip * tip - c * c, 0.)) - sin(pair->alpha_wt));
+}
+
+double gm_pair_advantage(const gm_pair *pair)
+{
+    double H_s = contact_end(pair, 1), H_t = contact_end(pair, 0);
+    double M = 2. * cos(pair->alpha_wt) * (H_s + H_t) / (H_s * H_s + H_t * H_t);
+    double t = tan(pair->beta) * pair->d_w[0] / pair->d[0]; /* tan beta_w */
+    return M * (1. + t * t);
+}

@@ -133,3 +133,14 @@ int gm_schema_keys(const gm_section *section, const char **keys, int max)
     }
     return n;
 }
+
+bool gm_schema_has_effect(const gm_field *field, const char *choice)
+{
+    size_t n = strlen(choice);
+    for (const char *at = field->only_word; (at = strstr(at, choice)) != NULL; at += n) {
+        bool begins = at == field->only_word || at[-1] == ' ';
+        if (begins && (at[n] == '\0' || at[n] == ',' || at[n] == ' '))
+            return true;
+    }
+    return false;
+}

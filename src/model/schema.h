@@ -56,7 +56,7 @@ typedef struct gm_field {
     size_t count_offset;       /* items, references: of the int count; 0: none */
     int fixed_count;           /* references: exactly so many; items: at most, in place */
     const char *only_key;  /* has an effect only where this choice of the section ... */
-    const char *only_word; /* ... is this word; NULL: always */
+    const char *only_word; /* ... is this word, or one of "a, b or c"; NULL: always */
     const char *help;
 } gm_field;
 
@@ -103,6 +103,9 @@ const gm_field *gm_schema_find(const gm_section *section, const char *key,
 
 /** Keys of a section, inline ones included, into keys[max]; returns their number. */
 int gm_schema_keys(const gm_section *section, const char **keys, int max);
+
+/** Whether a field with only_key has an effect beside that choice. */
+bool gm_schema_has_effect(const gm_field *field, const char *choice);
 
 /** What the field must be, such as "a number in mm greater than 0". */
 void gm_schema_expectation(const gm_field *field, char *text, size_t size);

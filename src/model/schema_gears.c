@@ -45,20 +45,36 @@ const gm_section gm_schema_gear = {
     .label = offsetof(gm_wheel, id), .collection = "gears"};
 #undef OWNER
 
-static const gm_choice mesh_losses[] = {{"constant", GM_MESH_CONSTANT},
-                                        {"iso14179_2", GM_MESH_ISO14179_2},
-                                        {NULL, 0}};
+static const gm_choice mesh_losses[] = {
+    {"constant", GM_MESH_CONSTANT},
+    {"torque_dependent", GM_MESH_TORQUE_DEPENDENT},
+    {"temperature_dependent", GM_MESH_TEMPERATURE_DEPENDENT},
+    {NULL, 0}};
+static const gm_choice mesh_methods[] = {{"iso14179_2", GM_MESH_ISO14179_2},
+                                         {"iso14179_1", GM_MESH_ISO14179_1},
+                                         {NULL, 0}};
 
 #define OWNER gm_mesh
 static const gm_field mesh_loss_fields[] = {
     {.key = "model", .type = GM_FIELD_CHOICE, .choices = mesh_losses, AT(loss),
-     DEFAULT("iso14179_2"),
-     .help = "iso14179_2: Schlenk's friction and Ohlendorf's loss factor"},
+     DEFAULT("temperature_dependent"),
+     .help = "an efficiency; a torque; or a standard with the viscosity of the oil at "
+             "its temperature"},
+    {.key = "method", .type = GM_FIELD_CHOICE, .choices = mesh_methods, AT(method),
+     DEFAULT("iso14179_2"), ONLY("model", "temperature_dependent"),
+     .help = "iso14179_2: Schlenk's friction and Ohlendorf's loss factor; iso14179_1: "
+             "within its range, blended to the former outside"},
     {NUMBER("efficiency", 0.5, 1), AT(efficiency), OPTIONAL, ONLY("model", "constant"),
-     .help = "share of the power that leaves; the constant model needs it"},
+     .help = "share of the power that leaves; needed"},
+    {NUMBER("idle_torque_Nm", 0, 1e5), AT(idle_torque), OPTIONAL,
+     ONLY("model", "torque_dependent"),
+     .help = "loss torque without load, at the first of the gears; needed"},
+    {NUMBER("torque_share", 0, 0.5), AT(torque_share), OPTIONAL,
+     ONLY("model", "torque_dependent"),
+     .help = "share of the torque that enters the mesh; needed"},
     {NUMBER("minimum_line_load_N_mm", 0, 10000), AT(minimum_line_load), DEFAULT("150"),
-     ONLY("model", "iso14179_2"),
-     .help = "smallest F_bt/b in the coefficient of friction"},
+     ONLY("model", "temperature_dependent"),
+     .help = "smallest F_bt/b in Schlenk's coefficient of friction"},
     END};
 static const gm_section mesh_loss_section = {
     .title = "loss", .word = "loss", .help = "Loss that depends on load.",

@@ -107,7 +107,7 @@ static void example_gears_and_bearings_are_complete(void **state)
     assert_string_equal(d->shafts[bearing(d, "reverse_idler_rear")->on].id.name,
                         "output_2");
     near(d->meshes[0].minimum_line_load, 150e3);
-    assert_int_equal(d->meshes[0].loss, GM_MESH_ISO14179_2);
+    assert_int_equal(d->meshes[0].loss, GM_MESH_TEMPERATURE_DEPENDENT);
     gm_description_destroy(d);
 }
 

@@ -21,20 +21,30 @@
 
 static const gm_test_rule rules[] = {
     /* settings of another model */
-    {FIRST, FIRST ", loss: {model: iso14179_2, efficiency: 0.99}", "efficiency",
+    {FIRST, FIRST ", loss: {model: temperature_dependent, efficiency: 0.99}",
+     "efficiency",
      "mesh 'first', loss: efficiency has an effect only with model constant, found model "
-     "iso14179_2",
+     "temperature_dependent",
      GM_ERR_FORMAT, NULL},
     {FIRST, FIRST ", loss: {efficiency: 0.99}", "efficiency",
      "mesh 'first', loss: efficiency has an effect only with model constant, found model "
-     "iso14179_2",
+     "temperature_dependent",
      GM_ERR_FORMAT, NULL},
     {FIRST,
      FIRST ", loss: {model: constant, efficiency: 0.99, minimum_line_load_N_mm: 100}",
      "minimum_line_load",
      "mesh 'first', loss: minimum_line_load_N_mm has an effect only with model "
-     "iso14179_2, found model constant",
+     "temperature_dependent, found model constant",
      GM_ERR_FORMAT, NULL},
+    {FIRST, FIRST ", loss: {model: constant, efficiency: 0.99, method: iso14179_1}",
+     "method",
+     "mesh 'first', loss: method has an effect only with model temperature_dependent, "
+     "found model constant",
+     GM_ERR_FORMAT, NULL},
+    {FIRST, FIRST ", loss: {model: torque_dependent, idle_torque_Nm: 1}", "first: {",
+     "mesh 'first': the loss model torque_dependent needs idle_torque_Nm and "
+     "torque_share",
+     GM_ERR_MODEL, NULL},
     {REAR, "type: deep_groove_ball, designation: \"6306\", f0: 2}", "f0: 2",
      "bearing 'input_odd_rear': f0 has an effect only with friction palmgren, found "
      "friction skf",

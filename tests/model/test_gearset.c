@@ -158,7 +158,7 @@ static void add_every_friction(reducer *r)
                            .on = GM_HOUSING,
                            .diameter = 0.03,
                            .model = GM_SEAL_ISO14179_2};
-    r->meshes[0].loss = GM_MESH_ISO14179_2;
+    r->meshes[0].loss = GM_MESH_TEMPERATURE_DEPENDENT;
     r->meshes[0].minimum_line_load = 150e3;
     for (int i = 0; i < 4; i++)
         r->bearings[i].data.friction = i % 2 ? GM_FRICTION_PALMGREN : GM_FRICTION_SKF;

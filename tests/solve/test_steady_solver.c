@@ -38,7 +38,7 @@ static void close_rig(test_rig *rig)
 static void lossy_reducer(test_rig *rig)
 {
     reducer_make(&rig->r);
-    rig->r.meshes[0].loss = GM_MESH_ISO14179_2;
+    rig->r.meshes[0].loss = GM_MESH_TEMPERATURE_DEPENDENT;
     rig->r.meshes[0].minimum_line_load = 0.0;
     for (int i = 0; i < 4; i++)
         rig->r.bearings[i].data.friction = i % 2 ? GM_FRICTION_PALMGREN : GM_FRICTION_SKF;
