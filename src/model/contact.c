@@ -10,37 +10,52 @@
  *
  * and the damping force is, with d the damping in contact,
  *
- *   film:    d (f + (1 - f) S(u/e)) v,   S(t) = 3 t^2 - 2 t^3, 0 below 0, 1 above 1
+ *   film:    d (f + (1 - f) S(1 + u/r)) v, r = min(e, gap),
+ *            S(t) = 3 t^2 - 2 t^3, 0 below 0, 1 above 1
  *   dry:     of Modelica's ElastoBacklash (Modelica Standard Library 4): with
  *            c = k u and h = s d v, the force s max(0, c + min(c, h)): the damper never
  *            pulls and never pushes more than the spring
  *   linear:  d v
  *
- * The film is the oil between flanks: a squeezed film resists approach and separation
- * over the whole gap, here by the share f of the damping of the contact; real films
- * stiffen as they thin, which S stands for. The entry depth e is of the order of the
- * contact's own flattening. Film is once continuously differentiable in x and linear in
- * v, dry continuous. All are passive: (F - dU/dx) v >= 0.
+ * The film is the oil between flanks. Squeezed, it resists approach and separation over
+ * the whole gap, here by the share f of the damping in contact, and the more the thinner
+ * it gets: over the last micrometres S raises the damping to its full value, so that it
+ * is there before the spring is and lightly loaded flanks settle at once. The entry
+ * depth e is of the order of the contact's own flattening. Film is once continuously
+ * differentiable in x and linear in v, dry continuous. All are passive:
+ * (F - dU/dx) v >= 0.
  */
 #include "model/contact.h"
 
 #include <math.h>
 
+/* f + (1 - f) S(t) and its derivative by t. */
+static double film_share(double f, double t, double *d_t)
+{
+    *d_t = 0.0;
+    if (t <= 0.0)
+        return f;
+    if (t >= 1.0)
+        return 1.0;
+    *d_t = (1.0 - f) * 6.0 * t * (1.0 - t);
+    return f + (1.0 - f) * t * t * (3.0 - 2.0 * t);
+}
+
 static gm_contact_force film(const gm_contact_law *law, double u, double s, double v)
 {
-    double t = fmax(u / law->entry, 0.0), k = law->stiffness;
-    double share = law->film, d_share = 0.0, spring, slope = k;
-    if (t >= 1.0) {
-        share = 1.0;
-        spring = k * (u - 0.5 * law->entry);
-    } else {
-        share += (1.0 - law->film) * t * t * (3.0 - 2.0 * t);
-        d_share = (1.0 - law->film) * 6.0 * t * (1.0 - t) / law->entry;
-        slope = k * t;
-        spring = 0.5 * k * law->entry * t * t;
+    double e = law->entry, k = law->stiffness, d_share, spring = 0.0, slope = 0.0;
+    double r = fmin(e, law->gap);
+    double share = film_share(law->film, u < 0.0 ? 1.0 + u / r : 1.0, &d_share);
+    if (u >= e) {
+        slope = k;
+        spring = k * (u - 0.5 * e);
+    } else if (u > 0.0) {
+        slope = k * u / e;
+        spring = 0.5 * slope * u;
     }
     return (gm_contact_force){.value = s * spring + law->damping * share * v,
-                              .d_x = slope + s * law->damping * d_share * v,
+                              .d_x = slope +
+                                     s * law->damping * (u < 0.0 ? d_share / r : 0.0) * v,
                               .d_v = law->damping * share,
                               .spring = s * spring};
 }
