@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * FMI 2.0 Co-Simulation: life of an instance and its steps. Calls are checked against the
- * state machine of FMI 2.0.3, section 4.2.4. Memory is taken once, in fmi2Instantiate,
- * and for states that the host asks to keep (fmi2_saved.c); no other call allocates or
- * enters the system. Nothing is shared by instances, so
- * different ones may run in different threads.
+ * FMI 2.0: life of an instance, and the steps of Co-Simulation. Calls are checked against
+ * the state machines of FMI 2.0.3, sections 3.2.3 and 4.2.4. Memory is taken once, in
+ * fmi2Instantiate, and for states that the host asks to keep (fmi2_saved.c); no other
+ * call allocates or enters the system. Nothing is shared by instances, so different ones
+ * may run in different threads.
  */
 #include "fmi2_instance.h"
 
@@ -38,8 +38,8 @@ static const char *wrong_argument(fmi2String name, fmi2Type type, fmi2String gui
 {
     if (!name || !*name)
         return "fmi2Instantiate: the instance name is missing";
-    if (type != fmi2CoSimulation)
-        return "fmi2Instantiate: this FMU supports Co-Simulation only";
+    if (type != fmi2CoSimulation && type != fmi2ModelExchange)
+        return "fmi2Instantiate: the type is neither Model Exchange nor Co-Simulation";
     if (!guid || strcmp(guid, gm_model_guid()) != 0)
         return "fmi2Instantiate: the GUID is not that of this FMU; modelDescription.xml "
                "and library do not belong together";
@@ -71,6 +71,7 @@ fmi2Component fmi2Instantiate(fmi2String instanceName, fmi2Type fmuType,
     memcpy(f->name, instanceName, length);
     f->host = host;
     f->logged = ALWAYS_LOGGED | (loggingOn ? (unsigned)FMI2_LOG_ALL : 0u);
+    f->run.component.exchange = fmuType == fmi2ModelExchange;
     gm_run_reset(gm_model_map(), &f->run);
     return f;
 }
@@ -144,33 +145,6 @@ fmi2Status fmi2EnterInitializationMode(fmi2Component c)
     return fmi2OK;
 }
 
-/* Warnings about what the component did instead of what it was told; each once. */
-static fmi2Status report(fmi2_instance *f, const char *function)
-{
-    fmi2Status status = fmi2OK;
-    if (gm_run_is_quiet(&f->run))
-        return fmi2OK;
-    for (int p = 0; p < gm_model_map()->n_paths; p++) {
-        if (!gm_run_gear_refused(&f->run, p))
-            continue;
-        fmi2_log(f, fmi2Warning, FMI2_LOG_WARNING,
-                 "%s: %s.gear = %d: there is no such gear; the path keeps the gear that "
-                 "was",
-                 function, gm_model_path_name(p),
-                 f->run.component.value[GM_PATH_GEAR][p].integer);
-        status = fmi2Warning;
-    }
-    if (gm_run_map_left(&f->run)) {
-        fmi2_log(
-            f, fmi2Warning, FMI2_LOG_WARNING,
-            "%s: at %g s the operating point left the map; edge values are used (told "
-            "once, see out_of_map)",
-            function, f->run.time);
-        status = fmi2Warning;
-    }
-    return status;
-}
-
 fmi2Status fmi2ExitInitializationMode(fmi2Component c)
 {
     fmi2_instance *f =
@@ -181,14 +155,15 @@ fmi2Status fmi2ExitInitializationMode(fmi2Component c)
         return fmi2_fail(f, "fmi2ExitInitializationMode",
                          "the start speeds are too large: output.w_start = %g",
                          f->run.component.value[GM_OUTPUT_W_START][0].real);
-    f->run.phase = GM_PHASE_STEP;
-    return report(f, "fmi2ExitInitializationMode");
+    f->run.phase = f->run.component.exchange ? GM_PHASE_EVENT : GM_PHASE_STEP;
+    f->run.update_due = true;
+    return fmi2_report(f, "fmi2ExitInitializationMode");
 }
 
 fmi2Status fmi2Terminate(fmi2Component c)
 {
-    fmi2_instance *f =
-        fmi2_enter(c, "fmi2Terminate", GM_PHASE_STEP | GM_PHASE_STEP_FAILED);
+    fmi2_instance *f = fmi2_enter(
+        c, "fmi2Terminate", GM_PHASE_STEP | GM_PHASE_STEP_FAILED | FMI2_PHASES_EXCHANGE);
     if (!f)
         return fmi2Error;
     f->run.phase = GM_PHASE_TERMINATED;
@@ -231,22 +206,6 @@ static fmi2Status refuse_step(fmi2_instance *f, gm_verdict verdict, double t, do
     }
 }
 
-/* What became of each path in the last step. */
-static void log_shifts(const fmi2_instance *f, const gm_path_state *before)
-{
-    for (int p = 0; p < gm_model_map()->n_paths; p++) {
-        const gm_path_state *now = &f->run.component.state.path[p];
-        if (now->mode == before[p].mode && now->gear == before[p].gear)
-            continue;
-        const char *what = now->mode == GM_PATH_ENGAGED         ? "engaged"
-                           : now->mode == GM_PATH_SYNCHRONISING ? "synchronising"
-                                                                : "neutral";
-        int number = now->gear < 0 ? 0 : gm_model_map()->path[p].gears[now->gear].number;
-        fmi2_log(f, fmi2OK, FMI2_LOG_EVENTS, "%g s: %s: gear %d, %s", f->run.time,
-                 gm_model_path_name(p), number, what);
-    }
-}
-
 /* The step with its shifts reported. */
 static gm_verdict step_and_log(fmi2_instance *f, double t, double h)
 {
@@ -254,7 +213,7 @@ static gm_verdict step_and_log(fmi2_instance *f, double t, double h)
     memcpy(before, f->run.component.state.path, sizeof before);
     gm_verdict verdict = gm_run_step(gm_model_map(), &f->run, t, h);
     if (verdict == GM_VERDICT_OK)
-        log_shifts(f, before);
+        fmi2_log_shifts(f, before);
     return verdict;
 }
 
@@ -270,7 +229,7 @@ fmi2Status fmi2DoStep(fmi2Component c, fmi2Real currentCommunicationPoint,
     gm_verdict verdict = f->logged & (FMI2_LOG_EVENTS | FMI2_LOG_ALL)
                              ? step_and_log(f, t, h)
                              : gm_run_step(gm_model_map(), &f->run, t, h);
-    return verdict ? refuse_step(f, verdict, t, h) : report(f, "fmi2DoStep");
+    return verdict ? refuse_step(f, verdict, t, h) : fmi2_report(f, "fmi2DoStep");
 }
 
 fmi2Status fmi2CancelStep(fmi2Component c)

@@ -89,6 +89,10 @@ static const char *phase_text(gm_phase phase)
         return "the instance is running";
     case GM_PHASE_STEP_FAILED:
         return "the last step was discarded";
+    case GM_PHASE_EVENT:
+        return "the instance is in event mode";
+    case GM_PHASE_CONTINUOUS:
+        return "the instance is in continuous-time mode";
     case GM_PHASE_TERMINATED:
         return "the simulation was terminated";
     case GM_PHASE_ERROR:
@@ -106,6 +110,27 @@ fmi2_instance *fmi2_enter(fmi2Component c, const char *function, unsigned phases
         return instance;
     fmi2_fail(instance, function, "not allowed now: %s", phase_text(instance->run.phase));
     return NULL;
+}
+
+static fmi2_instance *enter_kind(fmi2Component c, const char *function, unsigned phases,
+                                 bool exchange)
+{
+    fmi2_instance *instance = fmi2_enter(c, function, phases);
+    if (!instance || instance->run.component.exchange == exchange)
+        return instance;
+    fmi2_fail(instance, function, "the instance is for %s",
+              exchange ? "Co-Simulation" : "Model Exchange");
+    return NULL;
+}
+
+fmi2_instance *fmi2_enter_exchange(fmi2Component c, const char *function, unsigned phases)
+{
+    return enter_kind(c, function, phases, true);
+}
+
+fmi2_instance *fmi2_enter_slave(fmi2Component c, const char *function, unsigned phases)
+{
+    return enter_kind(c, function, phases, false);
 }
 
 const char *fmi2_variable_name(gm_reference reference, char text[FMI2_NAME_SIZE])

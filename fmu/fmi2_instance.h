@@ -40,16 +40,30 @@ typedef struct fmi2_instance {
 /** Phases in which a call is allowed. */
 enum {
     FMI2_PHASES_BEFORE = GM_PHASE_INSTANTIATED | GM_PHASE_INITIALISATION,
-    FMI2_PHASES_AFTER =
-        GM_PHASE_STEP | GM_PHASE_STEP_FAILED | GM_PHASE_TERMINATED | GM_PHASE_ERROR,
-    FMI2_PHASES_ANY = FMI2_PHASES_BEFORE | FMI2_PHASES_AFTER,
-    FMI2_PHASES_SET = FMI2_PHASES_BEFORE | GM_PHASE_STEP,
-    FMI2_PHASES_GET = GM_PHASE_INITIALISATION | FMI2_PHASES_AFTER
+    FMI2_PHASES_EXCHANGE = GM_PHASE_EVENT | GM_PHASE_CONTINUOUS,
+    FMI2_PHASES_OVER = GM_PHASE_TERMINATED | GM_PHASE_ERROR,
+    FMI2_PHASES_AFTER = GM_PHASE_STEP | GM_PHASE_STEP_FAILED | FMI2_PHASES_OVER,
+    FMI2_PHASES_ANY = FMI2_PHASES_BEFORE | FMI2_PHASES_AFTER | FMI2_PHASES_EXCHANGE,
+    FMI2_PHASES_SET = FMI2_PHASES_BEFORE | GM_PHASE_STEP | FMI2_PHASES_EXCHANGE,
+    FMI2_PHASES_SET_RATE = FMI2_PHASES_BEFORE | GM_PHASE_STEP,
+    FMI2_PHASES_GET = GM_PHASE_INITIALISATION | FMI2_PHASES_AFTER | FMI2_PHASES_EXCHANGE
 };
 
 /** The instance behind c if `function` may be called in its phase; else NULL, after a
  *  message and with the phase set to error. */
 fmi2_instance *fmi2_enter(fmi2Component c, const char *function, unsigned phases);
+
+/** The same for calls that belong to one kind of instance: Model Exchange or
+ *  Co-Simulation. */
+fmi2_instance *fmi2_enter_exchange(fmi2Component c, const char *function,
+                                   unsigned phases);
+fmi2_instance *fmi2_enter_slave(fmi2Component c, const char *function, unsigned phases);
+
+/** Warnings about what the component did instead of what it was told; each once. */
+fmi2Status fmi2_report(fmi2_instance *instance, const char *function);
+
+/** What became of each path since `before`, as log messages of category logEvents. */
+void fmi2_log_shifts(const fmi2_instance *instance, const gm_path_state *before);
 
 /** Report and return status. fmi2Error and fmi2Discard set the phase that follows only
  *  where their callers say so: fmi2_fail below. The text carries no '%' and no '#', which

@@ -18,6 +18,10 @@ static fmi2Status refuse(fmi2_instance *f, const char *function, gm_saved_verdic
         return fmi2_fail(f, function, "this is not a state that this FMU has saved");
     case GM_SAVED_OTHER_FMU:
         return fmi2_fail(f, function, "the state is that of another FMU");
+    case GM_SAVED_OTHER_TYPE:
+        return fmi2_fail(f, function,
+                         "the state is that of an instance for %s, this one is not",
+                         f->run.component.exchange ? "Co-Simulation" : "Model Exchange");
     default:
         return fmi2_fail(f, function, "the state is damaged");
     }
@@ -79,6 +83,9 @@ fmi2Status fmi2SetFMUstate(fmi2Component c, fmi2FMUstate FMUstate)
     fmi2_instance *f = enter(c, "fmi2SetFMUstate", FMUstate);
     if (!f)
         return fmi2Error;
+    gm_saved_verdict verdict = gm_saved_fits(FMUstate, &f->run);
+    if (verdict)
+        return refuse(f, "fmi2SetFMUstate", verdict);
     gm_saved_restore(FMUstate, &f->run);
     return fmi2OK;
 }

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * FMI 2.0: questions about the last step, and the optional function that
- * modelDescription.xml does not offer (FMI 2.0.3, sections 2.1.9 and 4.2.3). It has to
- * exist and answers fmi2Error.
+ * FMI 2.0 Co-Simulation: questions about the last step (FMI 2.0.3, section 4.2.3).
  */
 #include "fmi2_instance.h"
 
@@ -20,14 +18,14 @@ static fmi2Status not_available(fmi2_instance *f, const char *function, int kind
 
 fmi2Status fmi2GetStatus(fmi2Component c, const fmi2StatusKind s, fmi2Status *value)
 {
-    fmi2_instance *f = fmi2_enter(c, "fmi2GetStatus", PHASES_STATUS);
+    fmi2_instance *f = fmi2_enter_slave(c, "fmi2GetStatus", PHASES_STATUS);
     (void)value;
     return f ? not_available(f, "fmi2GetStatus", (int)s) : fmi2Error;
 }
 
 fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind s, fmi2Real *value)
 {
-    fmi2_instance *f = fmi2_enter(c, "fmi2GetRealStatus", PHASES_STATUS);
+    fmi2_instance *f = fmi2_enter_slave(c, "fmi2GetRealStatus", PHASES_STATUS);
     if (!f)
         return fmi2Error;
     if (s != fmi2LastSuccessfulTime || !value)
@@ -39,7 +37,7 @@ fmi2Status fmi2GetRealStatus(fmi2Component c, const fmi2StatusKind s, fmi2Real *
 fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind s,
                                 fmi2Integer *value)
 {
-    fmi2_instance *f = fmi2_enter(c, "fmi2GetIntegerStatus", PHASES_STATUS);
+    fmi2_instance *f = fmi2_enter_slave(c, "fmi2GetIntegerStatus", PHASES_STATUS);
     (void)value;
     return f ? not_available(f, "fmi2GetIntegerStatus", (int)s) : fmi2Error;
 }
@@ -47,7 +45,7 @@ fmi2Status fmi2GetIntegerStatus(fmi2Component c, const fmi2StatusKind s,
 fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind s,
                                 fmi2Boolean *value)
 {
-    fmi2_instance *f = fmi2_enter(c, "fmi2GetBooleanStatus", PHASES_STATUS);
+    fmi2_instance *f = fmi2_enter_slave(c, "fmi2GetBooleanStatus", PHASES_STATUS);
     if (!f)
         return fmi2Error;
     if (s != fmi2Terminated || !value)
@@ -58,26 +56,7 @@ fmi2Status fmi2GetBooleanStatus(fmi2Component c, const fmi2StatusKind s,
 
 fmi2Status fmi2GetStringStatus(fmi2Component c, const fmi2StatusKind s, fmi2String *value)
 {
-    fmi2_instance *f = fmi2_enter(c, "fmi2GetStringStatus", PHASES_STATUS);
+    fmi2_instance *f = fmi2_enter_slave(c, "fmi2GetStringStatus", PHASES_STATUS);
     (void)value;
     return f ? not_available(f, "fmi2GetStringStatus", (int)s) : fmi2Error;
-}
-
-fmi2Status fmi2GetDirectionalDerivative(fmi2Component c,
-                                        const fmi2ValueReference vUnknown_ref[],
-                                        size_t nUnknown,
-                                        const fmi2ValueReference vKnown_ref[],
-                                        size_t nKnown, const fmi2Real dvKnown[],
-                                        fmi2Real dvUnknown[])
-{
-    static const char function[] = "fmi2GetDirectionalDerivative";
-    (void)vUnknown_ref;
-    (void)nUnknown;
-    (void)vKnown_ref;
-    (void)nKnown;
-    (void)dvKnown;
-    (void)dvUnknown;
-    fmi2_instance *f = fmi2_enter(c, function, FMI2_PHASES_ANY);
-    return f ? fmi2_fail(f, function, "this FMU does not have the capability")
-             : fmi2Error;
 }

@@ -35,8 +35,11 @@ static fmi2Status refuse_value(fmi2_instance *f, const char *function, gm_verdic
         return fmi2_fail(f, function, "%s is an output and cannot be set (to %g)", name,
                          x);
     case GM_VERDICT_PHASE:
-        return fmi2_fail(f, function, "%s cannot be set (to %g) after initialisation",
-                         name, x);
+        return fmi2_fail(f, function, "%s cannot be set (to %g) %s", name, x,
+                         f->run.phase == GM_PHASE_CONTINUOUS &&
+                                 v->variability != GM_VARIABILITY_FIXED
+                             ? "between events"
+                             : "after initialisation");
     case GM_VERDICT_RANGE:
         if (v->max < GM_FREE)
             return fmi2_fail(f, function, "%s = %g is not within %g to %g", name, x,
@@ -72,16 +75,21 @@ static fmi2Status get_one(fmi2_instance *f, const char *function, gm_type carrie
     return fmi2OK;
 }
 
-/* Enter and check the arrays; NULL after a message. */
-static fmi2_instance *enter(fmi2Component c, const char *function, unsigned phases,
-                            size_t n, const void *vr, const void *value)
+/* f if it and its arrays are there; NULL after a message. */
+static fmi2_instance *with_arrays(fmi2_instance *f, const char *function, size_t n,
+                                  const void *vr, const void *value)
 {
-    fmi2_instance *f = fmi2_enter(c, function, phases);
     if (f && n > 0 && (!vr || !value)) {
         fmi2_fail(f, function, "an array of %lu items is missing", (unsigned long)n);
         return NULL;
     }
     return f;
+}
+
+static fmi2_instance *enter(fmi2Component c, const char *function, unsigned phases,
+                            size_t n, const void *vr, const void *value)
+{
+    return with_arrays(fmi2_enter(c, function, phases), function, n, vr, value);
 }
 
 fmi2Status fmi2GetReal(fmi2Component c, const fmi2ValueReference vr[], size_t nvr,
@@ -209,11 +217,11 @@ fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference
                                        size_t nvr, const fmi2Integer order[],
                                        const fmi2Real value[])
 {
-    fmi2_instance *f =
-        enter(c, "fmi2SetRealInputDerivatives", FMI2_PHASES_SET, nvr, vr, value);
+    static const char function[] = "fmi2SetRealInputDerivatives";
+    fmi2_instance *f = with_arrays(fmi2_enter_slave(c, function, FMI2_PHASES_SET_RATE),
+                                   function, nvr, vr, value);
     if (f && nvr > 0 && !order)
-        return fmi2_fail(f, "fmi2SetRealInputDerivatives",
-                         "the array of orders is missing");
+        return fmi2_fail(f, function, "the array of orders is missing");
     fmi2Status status = f ? fmi2OK : fmi2Error;
     for (size_t i = 0; i < nvr && status == fmi2OK; i++)
         status = set_rate(f, vr[i], order[i], value[i]);
@@ -232,8 +240,7 @@ static fmi2Status get_rate(fmi2_instance *f, unsigned vr, int order, double *rat
     fmi2_variable_name(reference, name);
     if (gm_variables[reference.id].causality != GM_CAUSALITY_OUTPUT)
         return fmi2_fail(f, function, "%s is not an output", name);
-    if (order == 1 &&
-        gm_component_rate(gm_model_map(), &f->run.component, reference, rate))
+    if (order == 1 && gm_run_rate(gm_model_map(), &f->run, reference, rate) == 0)
         return fmi2OK;
     fmi2_log(f, fmi2Discard, FMI2_LOG_DISCARD,
              "%s: the derivative of order %d of %s is "
@@ -246,11 +253,11 @@ fmi2Status fmi2GetRealOutputDerivatives(fmi2Component c, const fmi2ValueReferenc
                                         size_t nvr, const fmi2Integer order[],
                                         fmi2Real value[])
 {
-    fmi2_instance *f =
-        enter(c, "fmi2GetRealOutputDerivatives", FMI2_PHASES_AFTER, nvr, vr, value);
+    static const char function[] = "fmi2GetRealOutputDerivatives";
+    fmi2_instance *f = with_arrays(fmi2_enter_slave(c, function, FMI2_PHASES_AFTER),
+                                   function, nvr, vr, value);
     if (f && nvr > 0 && !order)
-        return fmi2_fail(f, "fmi2GetRealOutputDerivatives",
-                         "the array of orders is missing");
+        return fmi2_fail(f, function, "the array of orders is missing");
     fmi2Status status = f ? fmi2OK : fmi2Error;
     for (size_t i = 0; i < nvr && status == fmi2OK; i++)
         status = get_rate(f, vr[i], order[i], &value[i]);

@@ -27,7 +27,9 @@ static gm_reduced_inputs inputs_of(const gm_component *c)
 
 void gm_component_reset(const gm_reduced_map *map, gm_component *c)
 {
-    *c = (gm_component){.start_pending = true, .outputs_pending = true};
+    bool exchange = c->exchange;
+    *c = (gm_component){
+        .start_pending = true, .outputs_pending = true, .exchange = exchange};
     for (int id = 0; id < GM_VARIABLES; id++)
         for (int p = 0; p < GM_MAX_PATHS; p++)
             if (gm_variables[id].type == GM_TYPE_REAL)
@@ -62,6 +64,14 @@ static void publish(const gm_reduced_map *map, gm_component *c)
     c->outputs_pending = true;
 }
 
+/* Flags of an update, which counts as a start or step. */
+static int find_modes(const gm_reduced_map *map, gm_component *c, int *jumped)
+{
+    gm_reduced_params params = params_of(c);
+    gm_reduced_inputs inputs = inputs_of(c);
+    return gm_reduced_modes_update(map, &params, &inputs, &c->state, &c->modes, jumped);
+}
+
 int gm_component_start(const gm_reduced_map *map, gm_component *c)
 {
     gm_reduced_inputs inputs = inputs_of(c);
@@ -81,6 +91,13 @@ int gm_component_start(const gm_reduced_map *map, gm_component *c)
         state.path[p].twist = c->value[GM_PATH_TWIST][p].real;
     }
     c->state = state;
+    if (c->exchange) {
+        int jumped;
+        c->modes = (gm_reduced_modes){.outside = 0};
+        flags |= find_modes(map, c, &jumped);
+        if (flags & GM_FLAG_NOT_FINITE)
+            return flags;
+    }
     c->flags = flags;
     c->start_pending = false;
     publish(map, c);
@@ -102,6 +119,41 @@ int gm_component_step(const gm_reduced_map *map, gm_component *c, gm_real h)
     return flags;
 }
 
+int gm_component_update(const gm_reduced_map *map, gm_component *c, bool *jumped)
+{
+    int moved = 0, flags = find_modes(map, c, &moved);
+    if (flags & GM_FLAG_NOT_FINITE)
+        return flags;
+    c->flags = flags;
+    *jumped = moved != 0;
+    publish(map, c);
+    return flags;
+}
+
+bool gm_component_indicators(const gm_reduced_map *map, gm_component *c, gm_real *z)
+{
+    gm_reduced_params params = params_of(c);
+    gm_reduced_inputs inputs = inputs_of(c);
+    int flags =
+        gm_reduced_modes_indicators(map, &params, &inputs, &c->modes, &c->state, z);
+    return !(flags & GM_FLAG_NOT_FINITE);
+}
+
+void gm_component_move(const gm_reduced_map *map, gm_component *c)
+{
+    gm_reduced_state *s = &c->state;
+    s->phi_o = c->value[GM_OUTPUT_PHI][0].real;
+    s->w_o = c->value[GM_OUTPUT_W][0].real;
+    s->work = c->value[GM_WORK][0].real;
+    s->loss_energy = c->value[GM_LOSS_ENERGY][0].real;
+    for (int p = 0; p < map->n_paths; p++) {
+        s->path[p].phi = c->value[GM_PATH_PHI][p].real;
+        s->path[p].w = c->value[GM_PATH_W][p].real;
+        s->path[p].twist = c->value[GM_PATH_TWIST][p].real;
+    }
+    c->outputs_pending = true;
+}
+
 void gm_component_set(gm_component *c, gm_reference reference, gm_value value)
 {
     c->value[reference.id][reference.path] = value;
@@ -120,22 +172,46 @@ bool gm_component_set_rate(gm_component *c, gm_reference reference, gm_real rate
     return true;
 }
 
-/* Accelerations, losses and energies of the state under the present inputs. */
-static bool evaluate(const gm_reduced_map *map, gm_component *c)
+static int observe(const gm_reduced_map *map, gm_component *c, gm_reduced_outputs *out)
 {
     gm_reduced_params params = params_of(c);
     gm_reduced_inputs inputs = inputs_of(c);
+    if (c->exchange)
+        return gm_reduced_modes_outputs(map, &params, &inputs, &c->modes, &c->state, out);
+    return gm_reduced_outputs_at(map, &params, &inputs, &c->state, out);
+}
+
+static gm_real flange_power(const gm_reduced_map *map, const gm_component *c)
+{
+    gm_real sum = c->value[GM_OUTPUT_TAU][0].real * c->state.w_o;
+    for (int p = 0; p < map->n_paths; p++)
+        sum += c->value[GM_PATH_TAU][p].real * c->state.path[p].w;
+    return sum;
+}
+
+/* Whether the map is left: in an exchange this changes at events only. */
+static bool is_outside(const gm_component *c, int flags)
+{
+    return c->exchange ? c->modes.outside
+                       : ((flags | c->flags) & GM_FLAG_OUT_OF_MAP) != 0;
+}
+
+/* Accelerations, losses and energies of the state under the present inputs. */
+static bool evaluate(const gm_reduced_map *map, gm_component *c)
+{
     gm_reduced_outputs out;
-    int flags = gm_reduced_outputs_at(map, &params, &inputs, &c->state, &out);
-    if (flags & GM_FLAG_NOT_FINITE)
+    int flags = observe(map, c, &out);
+    gm_real power = flange_power(map, c);
+    if (flags & GM_FLAG_NOT_FINITE || power - power != 0.0)
         return false;
+    c->value[GM_POWER][0].real = power;
     c->value[GM_OUTPUT_A][0].real = out.a_o;
     c->value[GM_OUTPUT_LOSS_TORQUE][0].real = out.output_loss_torque;
     c->value[GM_LOSS_POWER][0].real = out.loss_power;
     c->value[GM_KINETIC_ENERGY][0].real = out.kinetic_energy;
     c->value[GM_ELASTIC_ENERGY][0].real = out.elastic_energy;
     c->value[GM_OUTPUT_INERTIA][0].real = out.inertia_o;
-    c->value[GM_OUT_OF_MAP][0].integer = ((flags | c->flags) & GM_FLAG_OUT_OF_MAP) != 0;
+    c->value[GM_OUT_OF_MAP][0].integer = is_outside(c, flags);
     for (int p = 0; p < map->n_paths; p++) {
         c->value[GM_PATH_A][p].real = out.a[p];
         c->value[GM_PATH_INERTIA][p].real = out.inertia[p];
@@ -151,6 +227,7 @@ static bool is_evaluated(gm_variable_id id)
     switch (id) {
     case GM_OUTPUT_A:
     case GM_OUTPUT_LOSS_TORQUE:
+    case GM_POWER:
     case GM_LOSS_POWER:
     case GM_KINETIC_ENERGY:
     case GM_ELASTIC_ENERGY:
@@ -171,34 +248,5 @@ bool gm_component_get(const gm_reduced_map *map, gm_component *c, gm_reference r
     if (is_evaluated(reference.id) && c->outputs_pending && !evaluate(map, c))
         return false;
     *value = c->value[reference.id][reference.path];
-    return true;
-}
-
-bool gm_component_rate(const gm_reduced_map *map, gm_component *c, gm_reference reference,
-                       gm_real *rate)
-{
-    gm_value value;
-    switch (reference.id) {
-    case GM_PATH_PHI:
-        reference.id = GM_PATH_W;
-        break;
-    case GM_OUTPUT_PHI:
-        reference.id = GM_OUTPUT_W;
-        break;
-    case GM_PATH_W:
-        reference.id = GM_PATH_A;
-        break;
-    case GM_OUTPUT_W:
-        reference.id = GM_OUTPUT_A;
-        break;
-    case GM_LOSS_ENERGY:
-        reference.id = GM_LOSS_POWER;
-        break;
-    default:
-        return false;
-    }
-    if (!gm_component_get(map, c, reference, &value))
-        return false;
-    *rate = value.real;
     return true;
 }

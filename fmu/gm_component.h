@@ -10,7 +10,7 @@
 #ifndef GM_COMPONENT_H
 #define GM_COMPONENT_H
 
-#include "gm_reduced.h"
+#include "gm_reduced_modes.h"
 #include "gm_variables.h"
 
 typedef union gm_value {
@@ -22,12 +22,14 @@ typedef struct gm_component {
     gm_value value[GM_VARIABLES][GM_MAX_PATHS]; /* [id][path], path 0 where none */
     gm_real output_tau_rate, path_tau_rate[GM_MAX_PATHS];
     gm_reduced_state state;
-    int flags;            /* of the last start or step, gm_reduced.h */
-    bool start_pending;   /* a start value changed since gm_component_start */
-    bool outputs_pending; /* accelerations, losses and energies are of an older point */
+    gm_reduced_modes modes; /* if exchange */
+    bool exchange;          /* a solver outside moves the states */
+    int flags;              /* of the last start or step, gm_reduced.h */
+    bool start_pending;     /* a start value changed since gm_component_start */
+    bool outputs_pending;   /* accelerations, losses and energies are of an older point */
 } gm_component;
 
-/** All variables at their start values; sync_torque from the map. */
+/** All variables at their start values; sync_torque from the map. `exchange` stays. */
 void gm_component_reset(const gm_reduced_map *map, gm_component *c);
 
 /** Engage the commanded gears and set speeds and angles from the start values. Returns
@@ -36,6 +38,17 @@ int gm_component_start(const gm_reduced_map *map, gm_component *c);
 
 /** One step of h > 0 s. Returns flags; GM_FLAG_NOT_FINITE: nothing was changed. */
 int gm_component_step(const gm_reduced_map *map, gm_component *c, gm_real h);
+
+/** Treat an event of an exchange: gear commands, shafts at rest, synchronised paths.
+ *  *jumped: speeds or energies changed. Returns flags; GM_FLAG_NOT_FINITE: nothing was
+ *  changed. */
+int gm_component_update(const gm_reduced_map *map, gm_component *c, bool *jumped);
+
+/** Event indicators z[gm_reduced_indicators] of an exchange; false on overflow. */
+bool gm_component_indicators(const gm_reduced_map *map, gm_component *c, gm_real *z);
+
+/** Take the values of the variables that are states over into the state. */
+void gm_component_move(const gm_reduced_map *map, gm_component *c);
 
 /** Store a value; gm_run_set has checked that it may be set. */
 void gm_component_set(gm_component *c, gm_reference reference, gm_value value);
@@ -46,10 +59,5 @@ bool gm_component_set_rate(gm_component *c, gm_reference reference, gm_real rate
 /** Value of a variable at this instant; false when it overflowed. */
 bool gm_component_get(const gm_reduced_map *map, gm_component *c, gm_reference reference,
                       gm_value *value);
-
-/** First derivative of an angle, a speed or the loss energy at this instant; false when
- *  the variable has none to offer or it overflowed. */
-bool gm_component_rate(const gm_reduced_map *map, gm_component *c, gm_reference reference,
-                       gm_real *rate);
 
 #endif

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
  * One run of the component: the phase of its life, its clock, and what may be done when.
- * The phases are those of FMI 2.0 and 3.0 Co-Simulation. A plain struct without pointers;
+ * The phases are those of FMI 2.0 and 3.0. A plain struct without pointers;
  * a new member belongs into gm_saved.h too. How verdicts become status codes and messages
  * is the matter of the FMI version.
  */
 #ifndef GM_RUN_H
 #define GM_RUN_H
 
-#include "gm_component.h"
+#include "gm_states.h"
 
 /** Bits, so that a set of phases is a mask. */
 typedef enum gm_phase {
@@ -17,7 +17,9 @@ typedef enum gm_phase {
     GM_PHASE_STEP = 4,        /* a communication point: the last step is complete */
     GM_PHASE_STEP_FAILED = 8, /* the last step was not done */
     GM_PHASE_TERMINATED = 16,
-    GM_PHASE_ERROR = 32
+    GM_PHASE_ERROR = 32,
+    GM_PHASE_EVENT = 64,      /* exchange: discrete inputs may change */
+    GM_PHASE_CONTINUOUS = 128 /* exchange: a solver moves time and states */
 } gm_phase;
 
 typedef struct gm_run {
@@ -27,6 +29,7 @@ typedef struct gm_run {
     bool stop_defined;
     gm_real time, stop_time;          /* s */
     gm_real last_step;                /* s, 0 before the first */
+    bool update_due;                  /* exchange: something changed in this event */
     bool map_left;                    /* leaving the map was reported */
     bool gear_reported[GM_MAX_PATHS]; /* the refused command was reported, */
     int reported_gear[GM_MAX_PATHS];  /* and this is which */
@@ -46,7 +49,8 @@ typedef enum gm_verdict {
     GM_VERDICT_OVERFLOW    /* numbers left the range of double */
 } gm_verdict;
 
-/** As after instantiation. The reports of map_left are kept: once per instance. */
+/** As after instantiation. The reports of map_left are kept, once per instance, and
+ *  whether it is an exchange. */
 void gm_run_reset(const gm_reduced_map *map, gm_run *run);
 
 /** Variable of a value reference, if it is carried by `carrier`. */
@@ -60,11 +64,22 @@ gm_verdict gm_run_set(gm_run *run, gm_reference reference, gm_value value);
 gm_verdict gm_run_get(const gm_reduced_map *map, gm_run *run, gm_reference reference,
                       gm_value *value);
 
+/** First derivative of a state at this instant; GM_VERDICT_UNKNOWN when the variable is
+ *  none. */
+gm_verdict gm_run_rate(const gm_reduced_map *map, gm_run *run, gm_reference reference,
+                       gm_real *rate);
+
 /** Finish initialisation: the component starts. */
 gm_verdict gm_run_start(const gm_reduced_map *map, gm_run *run);
 
 /** Step from time t by h. On GM_VERDICT_OVERFLOW nothing has changed. */
 gm_verdict gm_run_step(const gm_reduced_map *map, gm_run *run, gm_real t, gm_real h);
+
+/** Treat the event at hand of an exchange. *jumped: states changed. */
+gm_verdict gm_run_update(const gm_reduced_map *map, gm_run *run, bool *jumped);
+
+/** States from the solver outside; NaN and infinity are refused, nothing changes then. */
+gm_verdict gm_run_set_states(const gm_reduced_map *map, gm_run *run, const gm_real *x);
 
 /** True when the last step has nothing to report: the usual case, told apart quickly. */
 bool gm_run_is_quiet(const gm_run *run);

@@ -57,6 +57,18 @@ static void save_motion(const gm_reduced_state *state, gm_saved *s)
     s->loss_energy = state->loss_energy;
 }
 
+static void save_modes(const gm_run *run, gm_saved *s)
+{
+    const gm_reduced_modes *m = &run->component.modes;
+    for (int k = 0; k < GM_MODE_SHAFTS; k++)
+        s->direction[k] = m->direction[k];
+    for (int p = 0; p < GM_MAX_PATHS; p++)
+        s->slip[p] = m->slip[p];
+    s->outside = m->outside;
+    s->exchange = run->component.exchange;
+    s->update_due = run->update_due;
+}
+
 static void save_path(const gm_run *run, int p, gm_saved_path *s)
 {
     const gm_path_state *path = &run->component.state.path[p];
@@ -91,6 +103,7 @@ void gm_saved_make(const char *guid, const gm_run *run, gm_saved *saved)
     for (int p = 0; p < GM_MAX_PATHS; p++)
         save_path(run, p, &saved->path[p]);
     save_clock(run, saved);
+    save_modes(run, saved);
     saved->sum = sum_of(saved);
 }
 
@@ -109,6 +122,12 @@ gm_saved_verdict gm_saved_check(const char *guid, const gm_saved *saved)
     if (verdict)
         return verdict;
     return saved->sum == sum_of(saved) ? GM_SAVED_OK : GM_SAVED_DAMAGED;
+}
+
+gm_saved_verdict gm_saved_fits(const gm_saved *saved, const gm_run *run)
+{
+    return (saved->exchange != 0) == run->component.exchange ? GM_SAVED_OK
+                                                             : GM_SAVED_OTHER_TYPE;
 }
 
 static void restore_values(const gm_saved *s, gm_component *c)
@@ -132,6 +151,18 @@ static void restore_motion(const gm_saved *s, gm_reduced_state *state)
     state->brake = s->brake;
     state->work = s->work;
     state->loss_energy = s->loss_energy;
+}
+
+static void restore_modes(const gm_saved *s, gm_run *run)
+{
+    gm_reduced_modes *m = &run->component.modes;
+    for (int k = 0; k < GM_MODE_SHAFTS; k++)
+        m->direction[k] = s->direction[k];
+    for (int p = 0; p < GM_MAX_PATHS; p++)
+        m->slip[p] = s->slip[p];
+    m->outside = s->outside;
+    run->component.exchange = s->exchange != 0;
+    run->update_due = s->update_due != 0;
 }
 
 static void restore_path(const gm_saved_path *s, int p, gm_run *run)
@@ -167,4 +198,5 @@ void gm_saved_restore(const gm_saved *saved, gm_run *run)
     for (int p = 0; p < GM_MAX_PATHS; p++)
         restore_path(&saved->path[p], p, run);
     restore_clock(saved, run);
+    restore_modes(saved, run);
 }

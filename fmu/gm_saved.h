@@ -36,13 +36,16 @@ typedef struct gm_saved {
     gm_saved_path path[GM_MAX_PATHS];
     int32_t phase, flags, start_pending, outputs_pending;
     int32_t experiment_set, stop_defined;
+    int32_t direction[GM_MODE_SHAFTS], slip[GM_MAX_PATHS], outside;
+    int32_t exchange, update_due;
 } gm_saved;
 
 typedef enum gm_saved_verdict {
     GM_SAVED_OK,
-    GM_SAVED_FOREIGN,   /* no saved state, or of another layout or byte order */
-    GM_SAVED_OTHER_FMU, /* of a component with another GUID */
-    GM_SAVED_DAMAGED    /* the bytes are not those that were saved */
+    GM_SAVED_FOREIGN,    /* no saved state, or of another layout or byte order */
+    GM_SAVED_OTHER_FMU,  /* of a component with another GUID */
+    GM_SAVED_OTHER_TYPE, /* of an exchange, for a run that is none, or vice versa */
+    GM_SAVED_DAMAGED     /* the bytes are not those that were saved */
 } gm_saved_verdict;
 
 /** Keep the run of the component with this GUID in *saved; every byte is written. */
@@ -53,6 +56,9 @@ gm_saved_verdict gm_saved_owner(const char *guid, const gm_saved *saved);
 
 /** The same, and whether it is undamaged: what gm_saved_restore may be given. */
 gm_saved_verdict gm_saved_check(const char *guid, const gm_saved *saved);
+
+/** Whether the run is of the kind that was kept: an exchange or not. */
+gm_saved_verdict gm_saved_fits(const gm_saved *saved, const gm_run *run);
 
 /** The run that was kept, with empty caches; map_left stays. */
 void gm_saved_restore(const gm_saved *saved, gm_run *run);

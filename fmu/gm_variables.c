@@ -3,7 +3,7 @@
 
 const gm_variable gm_variables[] = {
 #define GM_VAR(id, scope_, name_, type_, causality_, variability_, initial_, unit,       \
-               start_, min_, max_, nominal, description)                                 \
+               start_, min_, max_, nominal_, description)                                \
     [GM_##id] = {.name = name_,                                                          \
                  .scope = GM_SCOPE_##scope_,                                             \
                  .type = GM_TYPE_##type_,                                                \
@@ -12,7 +12,8 @@ const gm_variable gm_variables[] = {
                  .initial = GM_INITIAL_##initial_,                                       \
                  .start = start_,                                                        \
                  .min = min_,                                                            \
-                 .max = max_},
+                 .max = max_,                                                            \
+                 .nominal = nominal_},
 #include "gm_vars.def"
 #undef GM_VAR
 };

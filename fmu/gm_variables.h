@@ -55,7 +55,7 @@ typedef struct gm_variable {
     gm_causality causality;
     gm_variability variability;
     gm_initial initial;
-    gm_real start, min, max;
+    gm_real start, min, max, nominal;
 } gm_variable;
 
 /** [GM_VARIABLES], in the order of the list. */

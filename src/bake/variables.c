@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
  * Dependencies, for torque in and speed out with losses that depend on load:
- *   - angles, speeds, energies, states are states of the component: no direct dependency;
- *   - accelerations and losses follow the torques of all flanges, since the transmitted
- *     torque is what is left after accelerating both sides;
+ *   - angles, speeds, twists, energies are states of the component, what a path is doing
+ *     changes at events: no direct dependency;
+ *   - accelerations and losses follow torques and speeds of all flanges, since the
+ *     transmitted torque is what is left after accelerating both sides;
  *   - at the start commanded gears are engaged at once, and output.w_start wins.
  */
 #include "bake/variables.h"
@@ -47,7 +48,65 @@ unsigned gm_bake_reference(scalar s)
     return 8u * (unsigned)s.id + (unsigned)(s.path + 1);
 }
 
-/* Follows the load on the flanges, not only the state. */
+int gm_bake_index(const scalar *all, int n, scalar s)
+{
+    for (int i = 0; i < n; i++)
+        if (all[i].id == s.id && all[i].path == s.path)
+            return i + 1;
+    return 0;
+}
+
+/* ---- states ---- */
+
+static const struct {
+    variable_id state, derivative;
+} states_of[] = {
+#define GM_STATE(state_, derivative_)                                                    \
+    {.state = VARIABLE_##state_, .derivative = VARIABLE_##derivative_},
+#include "core/gm_states.def"
+#undef GM_STATE
+};
+enum { N_STATES_OF = sizeof states_of / sizeof *states_of };
+
+int gm_bake_states(int n_paths, scalar *states, scalar *derivatives)
+{
+    int n = 0;
+    for (int i = 0; i < N_STATES_OF; i++) {
+        bool path = gm_bake_variables[states_of[i].state].scope == SCOPE_PATH;
+        for (int p = 0; p < (path ? n_paths : 1); p++, n++) {
+            states[n] = (scalar){states_of[i].state, path ? p : -1};
+            derivatives[n] = (scalar){states_of[i].derivative, path ? p : -1};
+        }
+    }
+    return n;
+}
+
+bool gm_bake_integral(scalar derivative, scalar *state)
+{
+    for (int i = 0; i < N_STATES_OF; i++)
+        if (states_of[i].derivative == derivative.id) {
+            *state = (scalar){states_of[i].state, derivative.path};
+            return true;
+        }
+    return false;
+}
+
+static bool is_state(variable_id id)
+{
+    for (int i = 0; i < N_STATES_OF; i++)
+        if (states_of[i].state == id)
+            return true;
+    return false;
+}
+
+int gm_bake_indicators(int n_paths)
+{
+    return 2 * n_paths + 2;
+}
+
+/* ---- dependencies ---- */
+
+/* Follows the load on the flanges. */
 static bool follows_load(variable_id id)
 {
     switch (id) {
@@ -56,6 +115,7 @@ static bool follows_load(variable_id id)
     case VARIABLE_PATH_LOSS_TORQUE:
     case VARIABLE_OUTPUT_LOSS_TORQUE:
     case VARIABLE_LOSS_POWER:
+    case VARIABLE_POWER:
     case VARIABLE_OUT_OF_MAP:
         return true;
     default:
@@ -68,9 +128,20 @@ static bool is_torque(variable_id id)
     return id == VARIABLE_PATH_TAU || id == VARIABLE_OUTPUT_TAU;
 }
 
-bool gm_bake_depends(scalar of, scalar on)
+static bool is_speed(variable_id id)
 {
-    return follows_load(of.id) && is_torque(on.id);
+    return id == VARIABLE_PATH_W || id == VARIABLE_OUTPUT_W;
+}
+
+dependency gm_bake_depends(scalar of, scalar on)
+{
+    if (is_state(of.id))
+        return of.id == on.id && of.path == on.path ? DEPENDENCY_CONSTANT
+                                                    : DEPENDENCY_NONE;
+    bool depends = follows_load(of.id)
+                       ? is_torque(on.id) || is_speed(on.id)
+                       : of.id == VARIABLE_KINETIC_ENERGY && is_speed(on.id);
+    return depends ? DEPENDENCY_DEPENDENT : DEPENDENCY_NONE;
 }
 
 static bool sets_speeds(variable_id id)
@@ -79,7 +150,7 @@ static bool sets_speeds(variable_id id)
            id == VARIABLE_PATH_GEAR;
 }
 
-bool gm_bake_depends_initially(scalar of, scalar on)
+static bool depends_initially(scalar of, scalar on)
 {
     switch (of.id) {
     case VARIABLE_OUTPUT_W:
@@ -95,11 +166,20 @@ bool gm_bake_depends_initially(scalar of, scalar on)
         return on.id == VARIABLE_PATH_GEAR;
     case VARIABLE_KINETIC_ENERGY:
         return sets_speeds(on.id);
+    case VARIABLE_POWER:
+        return is_torque(on.id) || sets_speeds(on.id);
     default:
         return follows_load(of.id) &&
                (is_torque(on.id) || sets_speeds(on.id) || on.id == VARIABLE_LOSS_SCALE);
     }
 }
+
+dependency gm_bake_depends_initially(scalar of, scalar on)
+{
+    return depends_initially(of, on) ? DEPENDENCY_DEPENDENT : DEPENDENCY_NONE;
+}
+
+/* ---- units ---- */
 
 #define RPM 9.5492965855137201 /* 30/pi */
 #define DEGREES 57.295779513082321

@@ -54,10 +54,29 @@ int gm_bake_scalars(int n_paths, scalar *all);
 /** Value reference of a scalar. */
 unsigned gm_bake_reference(scalar s);
 
-/** Does output `of` depend directly on scalar `on` (at communication points: on inputs;
- *  during initialisation: on inputs and start values)? */
-bool gm_bake_depends(scalar of, scalar on);
-bool gm_bake_depends_initially(scalar of, scalar on);
+/** Position of a scalar in all[n], counted from 1: its index in ModelVariables. */
+int gm_bake_index(const scalar *all, int n, scalar s);
+
+/** The continuous states of core/gm_states.def and their derivatives, in that order;
+ *  returns their number, at most that of the scalars. */
+int gm_bake_states(int n_paths, scalar *states, scalar *derivatives);
+
+/** Whether a scalar is the derivative of a state, and of which. */
+bool gm_bake_integral(scalar derivative, scalar *state);
+
+/** Number of event indicators: core/gm_reduced_modes.h. */
+int gm_bake_indicators(int n_paths);
+
+typedef enum dependency {
+    DEPENDENCY_NONE,
+    DEPENDENCY_DEPENDENT, /* in any way */
+    DEPENDENCY_CONSTANT   /* by a constant factor */
+} dependency;
+
+/** How output `of` depends directly on scalar `on` (at communication points and between
+ *  events: on inputs and states; during initialisation: on inputs and start values). */
+dependency gm_bake_depends(scalar of, scalar on);
+dependency gm_bake_depends_initially(scalar of, scalar on);
 
 typedef struct display_unit {
     const char *name;

@@ -51,7 +51,7 @@ static gm_real nothing_of(gm_real x)
     return y - y;
 }
 
-static int inputs_are_finite(const gm_reduced_map *map, const gm_reduced_inputs *in)
+int gm_inputs_are_finite(const gm_reduced_map *map, const gm_reduced_inputs *in)
 {
     gm_real sum = nothing_of(in->output_tau) + nothing_of(in->output_tau_rate) +
                   nothing_of(in->oil_temperature);
@@ -61,7 +61,7 @@ static int inputs_are_finite(const gm_reduced_map *map, const gm_reduced_inputs 
     return sum == 0;
 }
 
-static int motion_is_finite(const gm_reduced_map *map, const gm_motion *s)
+int gm_motion_is_finite(const gm_reduced_map *map, const gm_motion *s)
 {
     gm_real sum = (s->phi_o - s->phi_o) + (s->w_o - s->w_o) + (s->brake - s->brake) +
                   (s->work - s->work) + (s->loss_energy - s->loss_energy);
@@ -71,7 +71,7 @@ static int motion_is_finite(const gm_reduced_map *map, const gm_motion *s)
     return sum == 0;
 }
 
-static gm_motion load(const gm_reduced_state *state)
+gm_motion gm_load_motion(const gm_reduced_state *state)
 {
     gm_motion s;
     s.phi_o = state->phi_o;
@@ -84,7 +84,7 @@ static gm_motion load(const gm_reduced_state *state)
     return s;
 }
 
-static void store(const gm_motion *s, gm_reduced_state *state)
+void gm_store_motion(const gm_motion *s, gm_reduced_state *state)
 {
     state->phi_o = s->phi_o;
     state->w_o = s->w_o;
@@ -97,7 +97,7 @@ static void store(const gm_motion *s, gm_reduced_state *state)
 
 /* ---- gears ---- */
 
-static int command_gear(const gm_reduced_map *map, int p, int number, gm_motion *s)
+int gm_command_gear(const gm_reduced_map *map, int p, int number, gm_motion *s)
 {
     gm_path_state *path = &s->path[p];
     if (path->mode != GM_PATH_NEUTRAL &&
@@ -138,41 +138,41 @@ int gm_reduced_start(const gm_reduced_map *map, const gm_reduced_inputs *inputs,
     for (int p = 0; p < map->n_paths; p++) {
         gm_path_state *path = &s.path[p];
         path->w = w[p];
-        flags |= command_gear(map, p, inputs->gear[p], &s);
+        flags |= gm_command_gear(map, p, inputs->gear[p], &s);
         if (path->gear >= 0) {
             path->mode = GM_PATH_ENGAGED;
             path->w = gm_motion_gear(map, &s, p)->ratio * w_o;
         }
     }
-    if (!inputs_are_finite(map, inputs) || !motion_is_finite(map, &s)) {
+    if (!gm_inputs_are_finite(map, inputs) || !gm_motion_is_finite(map, &s)) {
         return GM_FLAG_NOT_FINITE;
     }
     *state = zero;
-    store(&s, state);
+    gm_store_motion(&s, state);
     return flags;
 }
 
 int gm_reduced_step(const gm_reduced_map *map, const gm_reduced_params *params,
                     const gm_reduced_inputs *inputs, gm_real h, gm_reduced_state *state)
 {
-    if (!inputs_are_finite(map, inputs) || !gm_is_finite(h)) {
+    if (!gm_inputs_are_finite(map, inputs) || !gm_is_finite(h)) {
         return GM_FLAG_NOT_FINITE;
     }
-    gm_motion s = load(state);
+    gm_motion s = gm_load_motion(state);
     gm_real rest = h;
     int flags = 0, outside = 0;
     for (int p = 0; p < map->n_paths; p++) {
-        flags |= command_gear(map, p, inputs->gear[p], &s);
+        flags |= gm_command_gear(map, p, inputs->gear[p], &s);
     }
     for (int i = 0; i < GM_SUBSTEPS && rest > 0; i++) {
         const gm_span span = {h - rest, rest, i == GM_SUBSTEPS - 1};
         lock_synchronised(map, params, &s);
         rest -= gm_substep(map, params, inputs, &span, &state->cache, &s, &outside);
     }
-    if (!motion_is_finite(map, &s)) {
+    if (!gm_motion_is_finite(map, &s)) {
         return GM_FLAG_NOT_FINITE;
     }
-    store(&s, state);
+    gm_store_motion(&s, state);
     return flags | (outside ? GM_FLAG_OUT_OF_MAP : 0);
 }
 
@@ -222,36 +222,42 @@ static void path_outputs(const gm_drive *d, const gm_solution *s, int p,
     o->kinetic_energy += d->inertia[p] * d->w[p] * d->w[p] / 2;
 }
 
-int gm_reduced_outputs_at(const gm_reduced_map *map, const gm_reduced_params *params,
-                          const gm_reduced_inputs *inputs, gm_reduced_state *state,
-                          gm_reduced_outputs *outputs)
+int gm_observe(const gm_drive *d, gm_solution *solution, gm_reduced_outputs *outputs)
 {
     static const gm_reduced_outputs zero = {0};
     gm_reduced_outputs o = zero;
-    gm_drive d;
-    gm_solution solution;
-    const gm_motion s = load(state);
-    if (!inputs_are_finite(map, inputs)) {
-        return GM_FLAG_NOT_FINITE;
+    const gm_real w_o = d->w[GM_OUT];
+    o.loss_power = gm_loss_power(d, solution);
+    if (solution->held[GM_OUT]) {
+        share_holding(d, solution);
     }
-    gm_make_drive(map, params, &s, &state->cache, &d);
-    gm_set_span(inputs, 0, 0, &d);
-    gm_solve(&d, &solution);
-    o.loss_power = gm_loss_power(&d, &solution);
-    if (solution.held[GM_OUT]) {
-        share_holding(&d, &solution);
-    }
-    o.a_o = solution.point.a[GM_OUT];
-    o.inertia_o = d.inertia[GM_OUT];
-    o.output_loss_torque = solution.terms.out;
-    o.kinetic_energy = d.inertia[GM_OUT] * s.w_o * s.w_o / 2;
-    for (int p = 0; p < d.n_paths; p++) {
-        path_outputs(&d, &solution, p, &o);
+    o.a_o = solution->point.a[GM_OUT];
+    o.inertia_o = d->inertia[GM_OUT];
+    o.output_loss_torque = solution->terms.out;
+    o.kinetic_energy = d->inertia[GM_OUT] * w_o * w_o / 2;
+    for (int p = 0; p < d->n_paths; p++) {
+        path_outputs(d, solution, p, &o);
     }
     if (!gm_is_finite(o.a_o) || !gm_is_finite(o.a[0]) || !gm_is_finite(o.a[1]) ||
         !gm_is_finite(o.kinetic_energy) || !gm_is_finite(o.loss_power)) {
         return GM_FLAG_NOT_FINITE;
     }
     *outputs = o;
-    return solution.terms.outside ? GM_FLAG_OUT_OF_MAP : 0;
+    return solution->terms.outside ? GM_FLAG_OUT_OF_MAP : 0;
+}
+
+int gm_reduced_outputs_at(const gm_reduced_map *map, const gm_reduced_params *params,
+                          const gm_reduced_inputs *inputs, gm_reduced_state *state,
+                          gm_reduced_outputs *outputs)
+{
+    gm_drive d;
+    gm_solution solution;
+    const gm_motion s = gm_load_motion(state);
+    if (!gm_inputs_are_finite(map, inputs)) {
+        return GM_FLAG_NOT_FINITE;
+    }
+    gm_make_drive(map, params, &s, &state->cache, &d);
+    gm_set_span(inputs, 0, 0, &d);
+    gm_solve(&d, &solution);
+    return gm_observe(&d, &solution, outputs);
 }

@@ -36,7 +36,7 @@ gm_real gm_motion_inertia(const gm_reduced_map *map, const gm_motion *s)
     return sum;
 }
 
-static gm_real cone_torque(const gm_reduced_params *params, int p, gm_real slip)
+gm_real gm_cone_torque(const gm_reduced_params *params, int p, gm_real slip)
 {
     const gm_real most = params->sync_torque[p];
     const gm_real capacity = most < GM_SYNC_AT_ONCE ? most : GM_SYNC_AT_ONCE;
@@ -57,7 +57,7 @@ static void drive_path(const gm_reduced_map *map, const gm_reduced_params *param
     d->inertia[p] = inertia;
     d->w[p] = path->w;
     d->cone[p] = path->mode == GM_PATH_SYNCHRONISING
-                     ? cone_torque(params, p, path->w - ratio * s->w_o)
+                     ? gm_cone_torque(params, p, path->w - ratio * s->w_o)
                      : 0;
     d->index = d->index * (map->path[p].n_gears + 1) + (engaged ? path->gear + 1 : 0);
     d->inertia[GM_OUT] += engaged ? ratio * ratio * inertia : 0;

@@ -140,6 +140,28 @@ void gm_set_span(const gm_reduced_inputs *in, gm_real t, gm_real h, gm_drive *d)
 /** Power of all loss torques of *s at its mean speeds, cones included [W]. */
 gm_real gm_loss_power(const gm_drive *d, const gm_solution *s);
 
+/** Cone torque of path p at a slip of this sign [N.m]. */
+gm_real gm_cone_torque(const gm_reduced_params *params, int p, gm_real slip);
+
+/** What can be observed of a solution at an instant (d->h = 0); flags as
+ *  gm_reduced_outputs_at. The holding torques of *s are completed. */
+int gm_observe(const gm_drive *d, gm_solution *s, gm_reduced_outputs *outputs);
+
+/** The part of the state that a step computes, and back. */
+gm_motion gm_load_motion(const gm_reduced_state *state);
+void gm_store_motion(const gm_motion *s, gm_reduced_state *state);
+
+/** Whether all inputs, all of the motion are numbers that can be computed with. */
+int gm_inputs_are_finite(const gm_reduced_map *map, const gm_reduced_inputs *in);
+int gm_motion_is_finite(const gm_reduced_map *map, const gm_motion *s);
+
+/** Path p leaves its gear for neutral or begins to synchronise, if the command says so.
+ *  Returns a flag when there is no such gear: nothing changes then. */
+int gm_command_gear(const gm_reduced_map *map, int p, int number, gm_motion *s);
+
+/** Shaft k stands; what kinetic energy it had goes into the losses. */
+void gm_bring_to_rest(const gm_reduced_map *map, int k, gm_motion *s);
+
 /** Path p and the output meet in one impulse that conserves momentum; the kinetic energy
  *  that goes is lost. The path is engaged from here on. */
 void gm_engage(const gm_reduced_map *map, int p, gm_motion *s);
@@ -190,6 +212,9 @@ int gm_terms_hold(const gm_drive *d, gm_solution *s, const gm_point *point,
 
 /** Motion over d->h from the speeds d->w: accelerations, held shafts, loss torques. */
 void gm_solve(const gm_drive *d, gm_solution *s);
+
+/** The same for the directions of rotation and the held shafts that *s has. */
+void gm_solve_given(const gm_drive *d, gm_solution *s);
 
 /** Torque on shaft k at rest minus the friction it must overcome to break away in
  *  direction sign: it does when > 0 for sign = 1, < 0 for sign = -1. *terms receives the

@@ -259,7 +259,7 @@ static void reset_brackets(gm_real low[GM_SHAFTS], gm_real high[GM_SHAFTS])
     }
 }
 
-static void run_passes(const gm_drive *d, gm_solution *s)
+void gm_solve_given(const gm_drive *d, gm_solution *s)
 {
     gm_point at;
     s->lead = d->h / 2;
@@ -363,7 +363,7 @@ void gm_solve(const gm_drive *d, gm_solution *s)
         s->barred[k] = 0;
         standing += s->held[k];
     }
-    run_passes(d, s);
+    gm_solve_given(d, s);
     if (standing == 0) {
         return;
     }
@@ -372,6 +372,6 @@ void gm_solve(const gm_drive *d, gm_solution *s)
         if (changed == 0) {
             return;
         }
-        run_passes(d, s);
+        gm_solve_given(d, s);
     }
 }

@@ -164,7 +164,7 @@ void gm_engage(const gm_reduced_map *map, int p, gm_motion *s)
     }
 }
 
-static void bring_to_rest(const gm_reduced_map *map, int k, gm_motion *s)
+void gm_bring_to_rest(const gm_reduced_map *map, int k, gm_motion *s)
 {
     if (k == GM_OUT) {
         s->loss_energy += gm_motion_inertia(map, s) * s->w_o * s->w_o / 2;
@@ -191,7 +191,7 @@ static void treat_events(const gm_reduced_map *map, int event,
         if (i >= GM_CLOSES) {
             gm_engage(map, i - GM_CLOSES, s);
         } else if (i == GM_OUT || s->path[i].mode != GM_PATH_ENGAGED) {
-            bring_to_rest(map, i, s);
+            gm_bring_to_rest(map, i, s);
         }
     }
 }

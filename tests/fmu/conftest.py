@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """FMUs baked from the example maps (tests/bake/example_map.c), and a thin host for them."""
 
+import ctypes
 import os
 import subprocess
 from contextlib import contextmanager
 from pathlib import Path
 
 import fmpy
+import numpy as np
 import pytest
-from fmpy.fmi2 import FMU2Slave
+from fmpy.fmi2 import FMU2Model, FMU2Slave
 
 BINARY = Path(os.environ["GM_BINARY_DIR"])
 
@@ -49,9 +51,11 @@ def one(tmp_path_factory):
 class Host:
     """One instance; values by name."""
 
+    kind = FMU2Slave
+
     def __init__(self, baked):
         self.baked = baked
-        self.fmu = FMU2Slave(
+        self.fmu = self.kind(
             guid=baked.description.guid, unzipDirectory=str(baked.folder),
             modelIdentifier=baked.description.coSimulation.modelIdentifier)
         self.fmu.instantiate()
@@ -84,12 +88,55 @@ class Host:
             self.time += h
 
 
+class ExchangeHost(Host):
+    """The same for Model Exchange."""
+
+    kind = FMU2Model
+
+    def start(self, values=()):
+        super().start(values)
+        self.update()
+
+    def update(self):
+        """From event mode to continuous-time mode; whether states changed."""
+        needed, terminate, nominals, states, time_event, _ = self.fmu.newDiscreteStates()
+        assert not (needed or terminate or nominals or time_event)
+        self.fmu.enterContinuousTimeMode()
+        return states
+
+    def event(self, values=()):
+        self.fmu.enterEventMode()
+        self.set(values)
+        return self.update()
+
+    def _array(self, n, call):
+        x = np.zeros(n)
+        call(x.ctypes.data_as(ctypes.POINTER(ctypes.c_double)), n)
+        return x
+
+    def states(self):
+        return self._array(self.baked.description.numberOfContinuousStates,
+                           self.fmu.getContinuousStates)
+
+    def rates(self):
+        return self._array(self.baked.description.numberOfContinuousStates,
+                           self.fmu.getDerivatives)
+
+    def indicators(self):
+        return self._array(self.baked.description.numberOfEventIndicators,
+                           self.fmu.getEventIndicators)
+
+    def set_states(self, x):
+        x = np.array(x, dtype=float)
+        self.fmu.setContinuousStates(x.ctypes.data_as(ctypes.POINTER(ctypes.c_double)), x.size)
+
+
 @pytest.fixture(scope="session")
 def host():
     """host(baked) as a context manager: freed whatever happens."""
     @contextmanager
-    def make(baked):
-        instance = Host(baked)
+    def make(baked, exchange=False):
+        instance = (ExchangeHost if exchange else Host)(baked)
         try:
             yield instance
         finally:

@@ -5,6 +5,7 @@ import itertools
 import re
 import zipfile
 
+import numpy as np
 import pytest
 from conftest import bake
 from fmpy.validation import validate_fmu
@@ -86,7 +87,29 @@ def test_structure_is_complete_by_rule(baked):
     assert [u.variable.name for u in d.initialUnknowns] == [
         v.name for v in d.modelVariables
         if v.causality == "output" and v.initial == "calculated"]
-    assert all(u.dependencies is not None for u in [*d.outputs, *d.initialUnknowns])
+    assert all(u.dependencies is not None
+               for u in [*d.outputs, *d.derivatives, *d.initialUnknowns])
+
+
+def test_states_are_the_same_for_every_gearset_and_mode(baked):
+    d = baked.description
+    paths = {n.split(".")[0] for n in baked.variables if "." in n}
+    states = [u.variable.derivative.name for u in d.derivatives]
+    assert set(states) == {*(f"{p}.{x}" for p in paths for x in ("phi", "w")),
+                           *(f"{p}.twist" for p in paths if p != "output"),
+                           "work", "loss_energy"}
+    assert d.numberOfContinuousStates == len(states)
+    n_paths = len(paths) - 1
+    assert d.numberOfEventIndicators == 2 * n_paths + 2
+    for u in d.derivatives:
+        assert u.variable.variability == "continuous"
+
+
+def test_model_exchange_tells_what_it_can(baked):
+    d = baked.description.modelExchange
+    assert d.modelIdentifier == baked.description.coSimulation.modelIdentifier
+    assert not d.needsCompletedIntegratorStep
+    assert d.canGetAndSetFMUstate and d.canSerializeFMUstate
 
 
 def test_titles_with_markup_survive(two):
@@ -184,20 +207,48 @@ def observed(baked, host, unknowns, initially):
     return seen
 
 
+def observed_of_states(baked, host):
+    """Pairs (output, state) where a change of the state changed the output; whether the
+    map is left is looked at in events only."""
+    d, seen = baked.description, set()
+    names = [u.variable.derivative.name for u in d.derivatives]
+    for point, (i, name) in itertools.product(POINTS, enumerate(names)):
+        with host(baked, exchange=True) as h:
+            h.start(point)
+            x, before = h.states(), snapshot(h, d.outputs)
+            h.set_states(x + 0.5 * (np.arange(len(x)) == i))
+            after = snapshot(h, d.outputs)
+            h.set_states(x + 300.0 * (np.arange(len(x)) == i))
+            h.event()
+            after["out_of_map"] = h.get("out_of_map")
+            seen |= {(out, name) for out in before if before[out] != after[out]}
+    return seen
+
+
 @pytest.mark.parametrize("initially", [False, True])
 def test_dependencies_are_exact(two, host, initially):
     d = two.description
     unknowns = d.initialUnknowns if initially else d.outputs
     declared = {(u.variable.name, k.name) for u in unknowns for k in u.dependencies}
     seen = observed(two, host, unknowns, initially)
+    if not initially:
+        seen |= observed_of_states(two, host)
     assert seen - declared == set(), "undeclared"
     assert declared - seen == set(), "declared, but without effect"
+
+
+def test_derivatives_depend_as_the_outputs_they_are(baked):
+    outputs = {u.variable.name: u for u in baked.description.outputs}
+    for u in baked.description.derivatives:
+        o = outputs[u.variable.name]
+        assert (u.dependencies, u.dependenciesKind) == (o.dependencies, o.dependenciesKind)
 
 
 def test_speeds_and_angles_have_no_feedthrough(baked):
     for u in baked.description.outputs:
         if u.variable.name.split(".")[-1] in ("w", "phi"):
-            assert u.dependencies == []
+            assert u.dependencies == [u.variable]
+            assert u.dependenciesKind == ["constant"]
 
 
 def test_indices_are_unique(baked):

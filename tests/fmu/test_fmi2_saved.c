@@ -21,7 +21,7 @@ _Static_assert(sizeof(gm_saved) == 2 * sizeof(uint32_t) + 2 * sizeof(uint64_t) +
                                        GM_VARIABLES * GM_MAX_PATHS * sizeof(gm_real) +
                                        9 * sizeof(gm_real) +
                                        GM_MAX_PATHS * sizeof(gm_saved_path) +
-                                       6 * sizeof(int32_t),
+                                       14 * sizeof(int32_t),
                "gm_saved has gaps");
 
 /* ---- a drive of random commands, the same ones whenever it is repeated ---- */
