@@ -35,7 +35,7 @@ static double value_of(const gm_table_key *key, double x, double y, double z)
     case GM_DRAG:
         return sign * (0.2 + 0.001 * x);
     case GM_REACTION: /* less than the drag's power: passive */
-        return sign * -1e-4 * x;
+        return 0.0 - sign * 1e-4 * x;
     case GM_LINE_JUMP:
         return key->path == 0 ? 0.05 : 0.03;
     case GM_COUPLING:

@@ -66,8 +66,13 @@ void host_init(host *h)
 
 fmi2Component host_instantiate(host *h)
 {
+    return host_instantiate_as(h, fmi2CoSimulation);
+}
+
+fmi2Component host_instantiate_as(host *h, fmi2Type type)
+{
     host_init(h);
-    fmi2Component c = fmi2Instantiate("gearset", fmi2CoSimulation, gm_model_guid(), NULL,
+    fmi2Component c = fmi2Instantiate("gearset", type, gm_model_guid(), NULL,
                                       &h->callbacks, fmi2False, fmi2False);
     assert_non_null(c);
     return c;

@@ -26,8 +26,9 @@ void fixture_fail_allocation(void);
 /** Callbacks into h. */
 void host_init(host *h);
 
-/** New instance of the compiled-in gearset. */
+/** New instance of the compiled-in gearset, for Co-Simulation or as told. */
 fmi2Component host_instantiate(host *h);
+fmi2Component host_instantiate_as(host *h, fmi2Type type);
 
 /** In initialisation mode at t = 0 without stop time; in step mode. */
 fmi2Component host_initialise(host *h);
