@@ -17,6 +17,8 @@ static gm_status identify(const gm_gearset_file *file, int p, int g,
     const gm_path_gear *gear = &file->description->paths[p].gears[g];
     int numbers[GM_MAX_INPUT_PATHS] = {0};
     gm_kinematics k;
+    for (int i = 0; i < file->description->n_paths; i++)
+        numbers[i] = gm_path_rest_gear(&file->description->paths[i]);
     numbers[p] = gear->number;
     gm_status status = gm_gearset_kinematics(file->gearset, numbers, &k, error);
     if (status != GM_OK)
@@ -31,7 +33,7 @@ static gm_status identify(const gm_gearset_file *file, int p, int g,
     found->number = gear->number;
     found->ratio = k.ratio[p];
     found->ratio_given = gear->ratio;
-    found->inertia = k.inertia[p] + k.inertia_output / (k.ratio[p] * k.ratio[p]);
+    found->inertia = k.inertia_total / (k.ratio[p] * k.ratio[p]);
     c->n_gears++;
     return GM_OK;
 }
@@ -77,7 +79,10 @@ static void print_shafts(const gm_description *d, FILE *out)
         for (int w = 0; w < d->n_wheels; w++)
             if (d->wheels[w].shaft == s) {
                 fprintf(out, "%s%s (%d%s)", separator, d->wheels[w].id.name,
-                        d->wheels[w].teeth, d->wheels[w].idles ? ", idles" : "");
+                        d->wheels[w].teeth,
+                        d->wheels[w].planets > 0 ? ", planets"
+                        : d->wheels[w].idles     ? ", idles"
+                                                 : "");
                 separator = ", ";
             }
         fputc('\n', out);
@@ -108,6 +113,7 @@ static void print_counts(const gm_description *d, FILE *out)
         {d->n_bearings, "bearing", "bearings"},
         {d->n_seals, "seal", "seals"},
         {d->n_synchronisers, "synchroniser", "synchronisers"},
+        {d->n_clutches, "clutch", "clutches"},
     };
     const char *separator = ": ";
     fputs(d->file, out);

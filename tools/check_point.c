@@ -117,6 +117,8 @@ static gm_status find_gear_in_step(const gm_gearset_file *file, int p, double w,
     for (int g = 0; g < path->n_gears && status == GM_OK; g++) {
         int gears[GM_MAX_INPUT_PATHS] = {0};
         gm_kinematics k;
+        for (int i = 0; i < file->description->n_paths; i++)
+            gears[i] = gm_path_rest_gear(&file->description->paths[i]);
         gears[p] = path->gears[g].number;
         status = gm_gearset_kinematics(file->gearset, gears, &k, error);
         if (status == GM_OK && fabs(k.ratio[p] * output_speed - w) <= 1e-9 * fabs(w))

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
  * Breadth-first search over parts: node i < n_shafts is a shaft, the others are gears. A
- * gear is connected with its shaft when it is fixed there or locked, and with its mates.
+ * gear is connected with its shaft when it is fixed there or locked, a planet with its
+ * carrier, every gear with its mates, and shafts by closed clutches. A shaft held by a
+ * brake passes nothing on.
  */
 #include "power_flow.h"
 
@@ -13,14 +15,33 @@
 
 typedef struct search {
     const gm_description *d;
-    int locked;            /* gear that is locked to its shaft */
-    int *previous, *queue; /* [n] */
+    const gm_path_gear *locked[GM_MAX_INPUT_PATHS]; /* what is locked */
+    int *previous, *queue;                          /* [n] */
     int n, head, tail;
 } search;
 
+static int locks(const search *s, int is_clutch, int index)
+{
+    int found = 0;
+    for (int p = 0; p < s->d->n_paths; p++)
+        for (int i = 0; i < s->locked[p]->n_locks; i++)
+            found |= s->locked[p]->locks[i].is_clutch == is_clutch &&
+                     s->locked[p]->locks[i].index == index;
+    return found;
+}
+
+static int is_held(const search *s, int shaft)
+{
+    for (int i = 0; i < s->d->n_clutches; i++)
+        if (s->d->clutches[i].shaft == shaft && s->d->clutches[i].on == GM_HOUSING &&
+            locks(s, 1, i))
+            return 1;
+    return 0;
+}
+
 static void visit(search *s, int node, int from)
 {
-    if (s->previous[node] != NOWHERE)
+    if (s->previous[node] != NOWHERE || (node < s->d->n_shafts && is_held(s, node)))
         return;
     s->previous[node] = from;
     s->queue[s->tail++] = node;
@@ -28,7 +49,21 @@ static void visit(search *s, int node, int from)
 
 static int is_fixed(const search *s, int wheel)
 {
-    return !s->d->wheels[wheel].idles || wheel == s->locked;
+    const gm_wheel *w = &s->d->wheels[wheel];
+    return !w->idles || w->planets > 0 || locks(s, 0, wheel);
+}
+
+static void visit_clutches(search *s, int shaft)
+{
+    for (int i = 0; i < s->d->n_clutches; i++) {
+        const gm_clutch *c = &s->d->clutches[i];
+        if (c->on == GM_HOUSING || !locks(s, 1, i))
+            continue;
+        if (c->shaft == shaft)
+            visit(s, c->on, shaft);
+        if (c->on == shaft)
+            visit(s, c->shaft, shaft);
+    }
 }
 
 static void visit_neighbours(search *s, int node)
@@ -38,8 +73,10 @@ static void visit_neighbours(search *s, int node)
     for (int w = 0; w < d->n_wheels && wheel < 0; w++)
         if (d->wheels[w].shaft == node && is_fixed(s, w))
             visit(s, d->n_shafts + w, node);
-    if (wheel < 0)
+    if (wheel < 0) {
+        visit_clutches(s, node);
         return;
+    }
     if (is_fixed(s, wheel))
         visit(s, d->wheels[wheel].shaft, node);
     for (int m = 0; m < d->n_meshes; m++)
@@ -71,9 +108,12 @@ gm_status gm_power_flow_find(const gm_description *description, int p, int g,
                              gm_power_flow *flow, gm_error *error)
 {
     const gm_path_part *path = &description->paths[p];
-    search s = {.d = description,
-                .locked = path->gears[g].wheel,
-                .n = description->n_shafts + description->n_wheels};
+    search s = {.d = description, .n = description->n_shafts + description->n_wheels};
+    for (int i = 0; i < description->n_paths; i++) {
+        const gm_path_part *other = &description->paths[i];
+        s.locked[i] = other->has_neutral ? &other->neutral : &other->gears[0];
+    }
+    s.locked[p] = &path->gears[g];
     gm_status status = GM_OK;
     memset(flow, 0, sizeof *flow);
     s.previous = gm_calloc((size_t)s.n, sizeof *s.previous);

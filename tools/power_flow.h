@@ -13,8 +13,9 @@ typedef struct gm_power_flow {
         *parts; /* [n] names from the input shaft to the output, of the description */
 } gm_power_flow;
 
-/** Shortest way from the shaft of path p to the output when gear index g of that path is
- *  locked and all else is open. Free with gm_power_flow_clear. GM_ERR_MEMORY. */
+/** Shortest way from the shaft of path p to the output when that path is in its gear with
+ *  index g and the other one rests. Planetary sets split power; this is one of the ways,
+ *  through parts that are not held. Free with gm_power_flow_clear. GM_ERR_MEMORY. */
 GM_NODISCARD gm_status gm_power_flow_find(const gm_description *description, int p, int g,
                                           gm_power_flow *flow, gm_error *error);
 void gm_power_flow_clear(gm_power_flow *flow);

@@ -268,8 +268,8 @@ static gm_bearing_torque bearing_torque(gm_balance *b, int i, const double *x,
 {
     const gm_bearing_element *e = &b->gearset->bearings[i];
     double radial, axial;
-    gm_load_row_at(&e->load, x, &radial, &axial, derivatives ? b->d_radial : NULL,
-                   derivatives ? b->d_axial : NULL);
+    gm_bearing_loads(e, b->speed, x, &radial, &axial, derivatives ? b->d_radial : NULL,
+                     derivatives ? b->d_axial : NULL);
     return gm_bearing_friction(&e->law, &b->bearing_speed[i], radial, axial);
 }
 
@@ -287,7 +287,7 @@ static void add_friction(gm_balance *b, const double *x, double *torque)
         const gm_bearing_element *e = &g->bearings[i];
         if (b->bearing[i].sign != 0.0)
             apply(torque, e->body, e->on,
-                  b->bearing[i].sign * bearing_torque(b, i, x, 0).value);
+                  e->count * b->bearing[i].sign * bearing_torque(b, i, x, 0).value);
     }
 }
 
@@ -356,7 +356,7 @@ static void fill_jacobian(gm_balance *b, const double *x)
             continue;
         gm_bearing_torque M = bearing_torque(b, i, x, 1);
         for (int k = 0; k < e->load.n; k++) {
-            double d = b->bearing[i].sign *
+            double d = e->count * b->bearing[i].sign *
                        (M.d_radial * b->d_radial[k] + M.d_axial * b->d_axial[k]);
             add_entry(b, e->body, e->load.mesh[k], -d);
             add_entry(b, e->on, e->load.mesh[k], d);
@@ -431,8 +431,9 @@ void gm_balance_losses(gm_balance *balance, const double *x, gm_element_loss *lo
         const gm_bearing_element *e = &g->bearings[i];
         double w = balance->bearing[i].speed;
         losses[i] = (gm_element_loss){.kind = e->kind, .name = e->name, .speed = w};
-        losses[i].power = w * bearing_torque(balance, i, x, 0).value;
-        gm_load_row_at(&e->load, x, &losses[i].radial, &losses[i].axial, NULL, NULL);
+        losses[i].power = e->count * w * bearing_torque(balance, i, x, 0).value;
+        gm_bearing_loads(e, balance->speed, x, &losses[i].radial, &losses[i].axial, NULL,
+                         NULL);
     }
     losses += g->n_bearings;
     for (int i = 0; i < g->n_drags; i++)

@@ -2,7 +2,8 @@
  *
  * Masses and moments of inertia of the rotating bodies: every shaft with the gears that
  * are fixed on it, then every idling gear as a body of its own. From geometry (steel,
- * solid of revolution up to the pitch circle) unless given.
+ * solid of revolution up to the pitch circle) unless given. All planets of a kind are one
+ * body, which turns about their pins; the carrier moves their masses around its axis.
  */
 #include "model/gearset.h"
 
@@ -93,9 +94,13 @@ gm_status gm_bodies_make(gm_gearset *gearset, gm_error *error)
     for (int w = 0; w < d->n_wheels; w++) {
         const gm_wheel *wheel = &d->wheels[w];
         int body = wheel->idles ? gearset->n_bodies++ : wheel->shaft;
+        int n = wheel->planets > 0 ? wheel->planets : 1;
         gearset->wheel_body[w] = body;
-        gearset->bodies[body].inertia += wheel_inertia(d, wheel);
-        gearset->bodies[body].mass += gm_wheel_mass(d, wheel);
+        gearset->bodies[body].inertia += n * wheel_inertia(d, wheel);
+        gearset->bodies[body].mass += n * gm_wheel_mass(d, wheel);
+        if (wheel->planets > 0)
+            gearset->bodies[wheel->shaft].inertia +=
+                n * gm_wheel_mass(d, wheel) * wheel->pin_radius * wheel->pin_radius;
     }
     return GM_OK;
 }

@@ -80,9 +80,8 @@ static gm_status check_support(const gm_description *d, int shaft, gm_error *err
     return GM_OK;
 }
 
-/* A part on shaft `shaft` that another shaft holds: the two must be concentric. */
-static gm_status check_on(const gm_description *d, const char *word, const gm_label *id,
-                          int shaft, int on, gm_error *error)
+gm_status gm_check_on(const gm_description *d, const char *word, const gm_label *id,
+                      int shaft, int on, gm_error *error)
 {
     if (on == GM_HOUSING)
         return GM_OK;
@@ -132,7 +131,7 @@ static gm_status check_bearing_data(const gm_description *d, const char *word,
 static gm_status check_bearing(const gm_description *d, const gm_bearing *b,
                                gm_error *error)
 {
-    gm_status status = check_on(d, "bearing", &b->id, b->shaft, b->on, error);
+    gm_status status = gm_check_on(d, "bearing", &b->id, b->shaft, b->on, error);
     if (status == GM_OK)
         status = check_bearing_data(d, "bearing", &b->id, &b->data, error);
     if (status == GM_OK)
@@ -149,7 +148,7 @@ static gm_status check_gap(const gm_description *d, const gm_gap *g, gm_error *e
             d, "gap", &g->id, error,
             "clearance_mm must be less than radius_mm; found %.6g and %.6g",
             1e3 * g->clearance, 1e3 * g->radius);
-    return check_on(d, "gap", &g->id, g->inner, g->outer, error);
+    return gm_check_on(d, "gap", &g->id, g->inner, g->outer, error);
 }
 
 gm_status gm_check_shafts(const gm_description *d, gm_error *error)
@@ -166,8 +165,8 @@ gm_status gm_check_shafts(const gm_description *d, gm_error *error)
     for (int i = 0; i < d->n_shafts && status == GM_OK; i++)
         status = check_support(d, i, error);
     for (int i = 0; i < d->n_seals && status == GM_OK; i++)
-        status = check_on(d, "seal", &d->seals[i].id, d->seals[i].shaft, d->seals[i].on,
-                          error);
+        status = gm_check_on(d, "seal", &d->seals[i].id, d->seals[i].shaft,
+                             d->seals[i].on, error);
     for (int i = 0; i < d->n_gaps && status == GM_OK; i++)
         status = check_gap(d, &d->gaps[i], error);
     return status;

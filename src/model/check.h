@@ -17,6 +17,24 @@ GM_NODISCARD gm_status gm_check_shafts(const gm_description *d, gm_error *error)
 GM_NODISCARD gm_status gm_check_gears(const gm_description *d, gm_error *error);
 GM_NODISCARD gm_status gm_check_paths(const gm_description *d, gm_error *error);
 
+/* Parts of the last one. */
+GM_NODISCARD gm_status gm_check_locks(const gm_description *d, gm_error *error);
+GM_NODISCARD gm_status gm_check_chains(const gm_description *d, gm_error *error);
+GM_NODISCARD gm_status gm_check_motion(const gm_description *d, gm_error *error);
+
+/** Whether meshes and what neutral locks connect a body with a flange. GM_ERR_MEMORY. */
+GM_NODISCARD gm_status gm_check_reached(const gm_description *d, int body, int *reached,
+                                        gm_error *error);
+
+/** A part on shaft `shaft` that another shaft or the housing holds: two shafts must be
+ *  concentric. */
+GM_NODISCARD gm_status gm_check_on(const gm_description *d, const char *word,
+                                   const gm_label *id, int shaft, int on,
+                                   gm_error *error);
+
+/** A wheel's body: of n_shafts + n_wheels, where only idling gears are their own. */
+int gm_check_body(const gm_description *d, int wheel);
+
 /** Fail with "file:line: element: sentence". element may be empty; a long path is cut at
  *  its beginning. */
 GM_PRINTF(6, 7)

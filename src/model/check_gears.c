@@ -9,7 +9,9 @@
  *   root circle d + 2 m_n (x - 1.25) outside the bore (external teeth).
  */
 #include "model/check.h"
+#include "model/gearset.h"
 #include "model/mesh.h"
+#include "model/power.h"
 
 #include <math.h>
 #include <string.h>
@@ -44,7 +46,7 @@ static gm_status check_bore(const gm_description *d, const gm_wheel *w, gm_error
     const gm_segment *s = gm_shaft_segment(&d->shafts[w->shaft], w->position);
     double root = pitch_diameter(w) + 2.0 * w->normal_module * (w->profile_shift - 1.25);
     double core = w->idles ? w->bore : s->bore;
-    if (w->idles && w->bore < s->diameter - TOUCH)
+    if (w->idles && w->planets == 0 && w->bore < s->diameter - TOUCH)
         return gm_part_fail(
             d, "gear", &w->id, error,
             "its bore must not be smaller than the shaft; found bore %.6g "
@@ -56,6 +58,29 @@ static gm_status check_bore(const gm_description *d, const gm_wheel *w, gm_error
                             "diameter %.6g mm, bore %.6g mm",
                             w->idles ? "in which it turns" : "of its shaft", 1e3 * root,
                             1e3 * core);
+    return GM_OK;
+}
+
+/* A planet turns on a pin, its fellows stand evenly around and must not touch it. */
+static gm_status check_planet(const gm_description *d, const gm_wheel *w, gm_error *error)
+{
+    double tip = pitch_diameter(w) + 2.0 * w->normal_module * (1.0 + w->profile_shift);
+    if (!w->idles || w->internal)
+        return gm_part_fail(d, "gear", &w->id, error,
+                            "a planet needs idles: true and external teeth");
+    if (w->planets < 2)
+        return gm_part_fail(d, "gear", &w->id, error,
+                            "planets stand evenly around their carrier, so there are 2 "
+                            "or more; found %d",
+                            w->planets);
+    if (isnan(w->pin_radius))
+        return gm_part_fail(d, "gear", &w->id, error, "a planet needs pin_radius_mm");
+    double apart = 2.0 * w->pin_radius * sin(GM_PI / w->planets);
+    if (!(apart > tip))
+        return gm_part_fail(d, "gear", &w->id, error,
+                            "planets side by side must not touch; found tip diameter "
+                            "%.6g mm, their axes %.6g mm apart",
+                            1e3 * tip, 1e3 * apart);
     return GM_OK;
 }
 
@@ -71,7 +96,13 @@ static gm_status check_gear(const gm_description *d, const gm_wheel *w, gm_error
                             "has no effect");
     if (w->idles && w->bearing.D == 0.0) /* the group is absent */
         return gm_part_fail(d, "gear", &w->id, error, "an idling gear needs a bearing");
-    gm_status status = check_position(d, w, error);
+    if (w->planets == 0 && (!isnan(w->pin_radius) || !isnan(w->pin_angle)))
+        return gm_part_fail(d, "gear", &w->id, error,
+                            "pin_radius_mm and pin_angle_deg have an effect only with "
+                            "planets");
+    gm_status status = w->planets > 0 ? check_planet(d, w, error) : GM_OK;
+    if (status == GM_OK)
+        status = check_position(d, w, error);
     return status == GM_OK ? check_bore(d, w, error) : status;
 }
 
@@ -135,7 +166,8 @@ static gm_status check_geometry(const gm_description *d, const gm_mesh *m,
                                 gm_error *error)
 {
     const gm_wheel *a = &d->wheels[m->wheel[0]], *b = &d->wheels[m->wheel[1]];
-    double distance = gm_shaft_distance(d, a->shaft, b->shaft);
+    double distance = gm_wheel_distance(d, m->wheel);
+    int pins = a->planets > 0 || b->planets > 0;
     if ((a->internal && a->teeth <= b->teeth) || (b->internal && b->teeth <= a->teeth))
         return gm_part_fail(
             d, "mesh", &m->id, error,
@@ -147,12 +179,13 @@ static gm_status check_geometry(const gm_description *d, const gm_mesh *m,
         return gm_part_fail(
             d, "mesh", &m->id, error,
             "the centre distance from teeth, module, helix and profile "
-            "shift of '%s' and '%s' must be that of shafts '%s' and '%s' "
+            "shift of '%s' and '%s' must be that of %s '%s' and '%s' "
             "within %.2f mm; found %.4f mm from the gears, %.4f mm from the "
-            "shafts",
-            a->id.name, b->id.name, d->shafts[a->shaft].id.name,
-            d->shafts[b->shaft].id.name, 1e3 * CENTRE_DISTANCE, 1e3 * pair.a_w,
-            1e3 * distance);
+            "%s",
+            a->id.name, b->id.name, pins ? "the axes of" : "shafts",
+            pins ? a->id.name : d->shafts[a->shaft].id.name,
+            pins ? b->id.name : d->shafts[b->shaft].id.name, 1e3 * CENTRE_DISTANCE,
+            1e3 * pair.a_w, 1e3 * distance, pins ? "pins" : "shafts");
     if (!(pair.eps_alpha >= 1.0 && pair.eps_alpha <= 2.5))
         return gm_part_fail(
             d, "mesh", &m->id, error,
@@ -161,11 +194,46 @@ static gm_status check_geometry(const gm_description *d, const gm_mesh *m,
     return GM_OK;
 }
 
+/* Planets mesh with gears around the axis of their carrier, or with each other. */
+static gm_status check_planet_mesh(const gm_description *d, const gm_mesh *m,
+                                   gm_error *error)
+{
+    const gm_wheel *a = &d->wheels[m->wheel[0]], *b = &d->wheels[m->wheel[1]];
+    const gm_wheel *planet = a->planets > 0 ? a : b, *other = planet == a ? b : a;
+    const char *carrier = d->shafts[planet->shaft].id.name;
+    if (planet->planets == 0)
+        return GM_OK;
+    if (other->planets > 0 &&
+        (other->shaft != planet->shaft || other->planets != planet->planets))
+        return gm_part_fail(d, "mesh", &m->id, error,
+                            "planets that mesh are as many and on one carrier; found %d "
+                            "on '%s' and %d on '%s'",
+                            planet->planets, carrier, other->planets,
+                            d->shafts[other->shaft].id.name);
+    if (other->planets == 0 && other->shaft == planet->shaft && !other->idles)
+        return gm_part_fail(d, "mesh", &m->id, error,
+                            "planet '%s' must not mesh with a gear that is fixed on its "
+                            "own carrier '%s', found '%s'",
+                            planet->id.name, carrier, other->id.name);
+    double apart = gm_shaft_distance(d, planet->shaft, other->shaft);
+    if (apart > GM_CONCENTRIC)
+        return gm_part_fail(d, "mesh", &m->id, error,
+                            "gear '%s' that meshes with planet '%s' must be concentric "
+                            "with the carrier '%s' within %.3f mm; found the axes %.3f "
+                            "mm apart",
+                            other->id.name, planet->id.name, carrier, 1e3 * GM_CONCENTRIC,
+                            1e3 * apart);
+    return GM_OK;
+}
+
 static gm_status check_partners(const gm_description *d, int mesh, gm_error *error)
 {
     const gm_mesh *m = &d->meshes[mesh];
     const gm_wheel *a = &d->wheels[m->wheel[0]], *b = &d->wheels[m->wheel[1]];
-    if (a->shaft == b->shaft)
+    gm_status status = check_planet_mesh(d, m, error);
+    if (status != GM_OK)
+        return status;
+    if (a->shaft == b->shaft && a->planets == 0 && b->planets == 0)
         return gm_part_fail(
             d, "mesh", &m->id, error,
             "gears that mesh sit on different shafts; found '%s' and '%s' "
@@ -210,6 +278,33 @@ static gm_status check_mesh(const gm_description *d, int mesh, gm_error *error)
     return status;
 }
 
+/* Mate of a planet with external (0) or internal teeth (1); NULL: none. */
+static const gm_wheel *mate_of(const gm_description *d, int planet, int internal)
+{
+    for (int i = 0; i < d->n_meshes; i++)
+        for (int side = 0; side < 2; side++) {
+            const gm_wheel *mate = &d->wheels[d->meshes[i].wheel[1 - side]];
+            if (d->meshes[i].wheel[side] == planet && mate->planets == 0 &&
+                mate->internal == internal)
+                return mate;
+        }
+    return NULL;
+}
+
+/* Teeth find their gaps all around only if sun and ring together are divisible. */
+static gm_status check_even(const gm_description *d, int wheel, gm_error *error)
+{
+    const gm_wheel *w = &d->wheels[wheel];
+    const gm_wheel *sun = mate_of(d, wheel, 0), *ring = mate_of(d, wheel, 1);
+    if (w->planets == 0 || !sun || !ring || (sun->teeth + ring->teeth) % w->planets == 0)
+        return GM_OK;
+    return gm_part_fail(d, "gear", &w->id, error,
+                        "%d planets stand evenly only where the teeth of sun and ring "
+                        "add up to a multiple of %d; found %d ('%s') and %d ('%s')",
+                        w->planets, w->planets, sun->teeth, sun->id.name, ring->teeth,
+                        ring->id.name);
+}
+
 static gm_status check_has_mesh(const gm_description *d, int wheel, gm_error *error)
 {
     for (int i = 0; i < d->n_meshes; i++)
@@ -228,5 +323,7 @@ gm_status gm_check_gears(const gm_description *d, gm_error *error)
         status = check_has_mesh(d, i, error);
     for (int i = 0; i < d->n_meshes && status == GM_OK; i++)
         status = check_mesh(d, i, error);
+    for (int i = 0; i < d->n_wheels && status == GM_OK; i++)
+        status = check_even(d, i, error);
     return status;
 }

@@ -16,8 +16,9 @@ static gm_status check_ratio(const gm_gearset *gearset, int p, const gm_path_gea
                              gm_error *error)
 {
     const gm_description *d = gearset->description;
-    int gear[GM_MAX_INPUT_PATHS] = {0};
+    int gear[GM_MAX_INPUT_PATHS];
     gm_kinematics kinematics;
+    gm_rest_gears(d, gear);
     gear[p] = given->number;
     gm_status status = gm_gearset_kinematics(gearset, gear, &kinematics, error);
     if (status != GM_OK)

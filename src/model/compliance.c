@@ -25,43 +25,27 @@ static void add_row(sums *s, const gm_contact_law *law, double F)
     s->lash += 2.0 * fabs(F) * law->gap;
 }
 
-static const gm_flanks *dogs_of(const gm_description *d, int wheel)
-{
-    for (int s = 0; s < d->n_synchronisers; s++)
-        for (int k = 0; k < d->synchronisers[s].n_wheels; k++)
-            if (d->synchronisers[s].wheels[k] == wheel)
-                return &d->synchronisers[s].dogs;
-    return NULL;
-}
-
-static int locked_wheel(const gm_path_part *path, int number)
-{
-    for (int i = 0; i < path->n_gears; i++)
-        if (path->gears[i].number == number)
-            return path->gears[i].wheel;
-    return -1;
-}
-
 static void add_rows(const gm_gearset *gearset, const gm_configuration_rows *rows, int p,
-                     int number, const double *inertia, sums *s)
+                     const double *inertia, sums *s)
 {
-    const gm_description *d = gearset->description;
     int input = gm_flange_body(gearset, 1 + p);
     for (int m = 0; m < gearset->n_meshes; m++) {
         double mass = gm_row_reduced_mass(&gearset->meshes[m].row, inertia);
         gm_contact_law law = gm_mesh_contact_law(gearset, m, mass);
         add_row(s, &law, rows->inverse[m * rows->n_bodies + input]);
     }
-    const gm_flanks *dogs = dogs_of(d, locked_wheel(&d->paths[p], number));
-    double mass = gm_row_reduced_mass(&rows->lock[0], inertia);
-    gm_contact_law law = gm_flanks_law(dogs, dogs->stiffness, dogs->backlash, mass);
-    add_row(s, &law, rows->inverse[gearset->n_meshes * rows->n_bodies + input]);
+    for (int i = 0; i < rows->n_locks; i++) {
+        double mass = gm_row_reduced_mass(&rows->lock[i], inertia);
+        gm_contact_law law = gm_lock_contact_law(gearset, rows->locked[i], mass);
+        add_row(s, &law, rows->inverse[(gearset->n_meshes + i) * rows->n_bodies + input]);
+    }
 }
 
 gm_status gm_gearset_compliance(const gm_gearset *gearset, int p, int number,
                                 gm_compliance *compliance, gm_error *error)
 {
-    int gear[GM_MAX_INPUT_PATHS] = {0};
+    int gear[GM_MAX_INPUT_PATHS];
+    gm_rest_gears(gearset->description, gear);
     gear[p] = number;
     if (number == 0)
         return gm_fail(error, GM_ERR_ARGUMENT, "compliance is that of a gear, not of 0");
@@ -77,7 +61,7 @@ gm_status gm_gearset_compliance(const gm_gearset *gearset, int p, int number,
     for (int b = 0; b < gearset->n_bodies; b++)
         inertia[b] = gearset->bodies[b].inertia;
     sums s = {0.0, 0.0, 0.0};
-    add_rows(gearset, &rows, p, number, inertia, &s);
+    add_rows(gearset, &rows, p, inertia, &s);
     double k = 1.0 / s.flexibility;
     *compliance = (gm_compliance){k, k * k * s.dissipation, s.lash};
     gm_free(inertia);

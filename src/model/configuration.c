@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * Kinematics of a configuration. The rows of all meshes and of the locked synchronisers
- * tie the speeds of the bodies; the output and every path in neutral stay independent.
+ * Kinematics of a configuration. The rows of all meshes and of what the gears lock tie
+ * the speeds of the bodies; the output and every path in neutral stay independent.
  * The same matrix, transposed, balances torques: power does not depend on who writes it.
  *
  *   K w = [0; u]     K = [rows; unit rows of the independent bodies]
@@ -21,32 +21,57 @@ int gm_flange_body(const gm_gearset *gearset, int flange)
     return flange == 0 ? d->output : d->paths[flange - 1].shaft;
 }
 
-static const gm_path_gear *find_gear(const gm_path_part *path, int number)
+gm_row gm_lock_row(const gm_gearset *gearset, const gm_lock *lock)
 {
-    for (int i = 0; i < path->n_gears; i++)
-        if (path->gears[i].number == number)
-            return &path->gears[i];
-    return NULL;
+    const gm_description *d = gearset->description;
+    if (!lock->is_clutch)
+        return (gm_row){
+            .n = 2,
+            .body = {gearset->wheel_body[lock->index], d->wheels[lock->index].shaft},
+            .g = {1.0, -1.0}};
+    const gm_clutch *clutch = &d->clutches[lock->index];
+    return (gm_row){.n = clutch->on == GM_HOUSING ? 1 : 2,
+                    .body = {clutch->shaft, clutch->on},
+                    .g = {1.0, -1.0}};
 }
 
+/* What two paths both lock is locked once. */
+static void add_locks(const gm_gearset *gearset, const gm_path_gear *gear,
+                      gm_configuration_rows *rows)
+{
+    for (int i = 0; i < gear->n_locks; i++) {
+        gm_row row = gm_lock_row(gearset, &gear->locks[i]);
+        int known = 0;
+        for (int k = 0; k < rows->n_locks; k++)
+            known |= rows->lock[k].n == row.n && rows->lock[k].body[0] == row.body[0] &&
+                     rows->lock[k].body[1] == row.body[1];
+        if (known)
+            continue;
+        rows->locked[rows->n_locks] = &gear->locks[i];
+        rows->lock[rows->n_locks++] = row;
+    }
+}
+
+/* The locks and the independent speeds. */
 static gm_status collect(const gm_gearset *gearset, const int *gear,
                          gm_configuration_rows *rows, gm_error *error)
 {
     const gm_description *d = gearset->description;
+    int n_elements = d->n_wheels + d->n_clutches;
+    rows->lock = gm_calloc((size_t)n_elements, sizeof *rows->lock);
+    rows->locked = gm_calloc((size_t)n_elements, sizeof *rows->locked);
+    if (!rows->lock || !rows->locked)
+        return gm_fail(error, GM_ERR_MEMORY, "out of memory");
     rows->flange[rows->n_independent++] = 0;
     for (int p = 0; p < d->n_paths; p++) {
-        if (gear[p] == 0) {
-            rows->flange[rows->n_independent++] = 1 + p;
-            continue;
-        }
-        const gm_path_gear *g = find_gear(&d->paths[p], gear[p]);
+        const gm_path_part *path = &d->paths[p];
+        const gm_path_gear *g = gm_path_gear_of(path, gear[p]);
         if (!g)
             return gm_fail(error, GM_ERR_ARGUMENT, "%s: path '%s' has no gear %d",
-                           d->file, d->paths[p].id.name, gear[p]);
-        rows->lock[rows->n_locks++] =
-            (gm_row){.n = 2,
-                     .body = {gearset->wheel_body[g->wheel], d->wheels[g->wheel].shaft},
-                     .g = {1.0, -1.0}};
+                           d->file, path->id.name, gear[p]);
+        if (g == &path->neutral)
+            rows->flange[rows->n_independent++] = 1 + p;
+        add_locks(gearset, g, rows);
     }
     rows->n_bodies = gearset->n_bodies;
     rows->n_rows = gearset->n_meshes + rows->n_locks;
@@ -127,8 +152,10 @@ gm_status gm_configuration_rows_make(const gm_gearset *gearset, const int *gear,
 {
     memset(rows, 0, sizeof *rows);
     gm_status status = collect(gearset, gear, rows, error);
-    if (status != GM_OK)
+    if (status != GM_OK) {
+        gm_configuration_rows_clear(rows);
         return status;
+    }
     size_t n = (size_t)rows->n_bodies;
     rows->speed_of = gm_calloc(n * (size_t)rows->n_independent, sizeof *rows->speed_of);
     rows->balance = gm_calloc(n * n, sizeof *rows->balance);
@@ -148,6 +175,8 @@ gm_status gm_configuration_rows_make(const gm_gearset *gearset, const int *gear,
 
 void gm_configuration_rows_clear(gm_configuration_rows *rows)
 {
+    gm_free(rows->lock);
+    gm_free(rows->locked);
     gm_free(rows->speed_of);
     gm_free(rows->balance);
     gm_free(rows->inverse);
@@ -162,78 +191,99 @@ int gm_flange_column(const gm_configuration_rows *rows, int flange)
     return -1;
 }
 
-/* Inertia that turns with one independent speed: sum of J (dw/du)^2. */
-static double carried_inertia(const gm_gearset *gearset,
-                              const gm_configuration_rows *rows, int column)
+double gm_coupled_inertia(const gm_gearset *gearset, const gm_configuration_rows *rows,
+                          int i, int k)
 {
     double J = 0.0;
     for (int b = 0; b < rows->n_bodies; b++) {
-        double s = rows->speed_of[b * rows->n_independent + column];
-        J += gearset->bodies[b].inertia * s * s;
+        const double *s = rows->speed_of + b * rows->n_independent;
+        J += gearset->bodies[b].inertia * s[i] * s[k];
     }
     return J;
 }
 
-static gm_status neutral_inertias(const gm_gearset *gearset, gm_kinematics *kinematics,
-                                  gm_error *error)
+/* A path without neutral always turns with the output; of its inertia only the body of
+ * its flange counts as the path's. */
+static void neutral_inertias(const gm_gearset *gearset, const gm_configuration_rows *rows,
+                             gm_kinematics *k)
 {
-    const int neutral[GM_MAX_INPUT_PATHS] = {0};
-    gm_configuration_rows rows;
-    gm_status status = gm_configuration_rows_make(gearset, neutral, &rows, error);
-    if (status != GM_OK)
-        return status;
-    kinematics->inertia_output = carried_inertia(gearset, &rows, 0);
-    for (int p = 0; p < gearset->description->n_paths; p++)
-        kinematics->inertia[p] =
-            carried_inertia(gearset, &rows, gm_flange_column(&rows, 1 + p));
-    gm_configuration_rows_clear(&rows);
-    return GM_OK;
+    k->inertia_output = gm_coupled_inertia(gearset, rows, 0, 0);
+    for (int p = 0; p < gearset->description->n_paths; p++) {
+        int column = gm_flange_column(rows, 1 + p), body = gm_flange_body(gearset, 1 + p);
+        double r = rows->speed_of[body * rows->n_independent];
+        if (column >= 0) {
+            k->inertia[p] = gm_coupled_inertia(gearset, rows, column, column);
+            continue;
+        }
+        k->inertia[p] = gearset->bodies[body].inertia;
+        k->inertia_output -= r * r * k->inertia[p];
+    }
+}
+
+void gm_rest_gears(const gm_description *description, int gear[GM_MAX_INPUT_PATHS])
+{
+    for (int p = 0; p < GM_MAX_INPUT_PATHS; p++)
+        gear[p] =
+            p < description->n_paths ? gm_path_rest_gear(&description->paths[p]) : 0;
 }
 
 gm_status gm_gearset_kinematics(const gm_gearset *gearset, const int *gear,
                                 gm_kinematics *kinematics, gm_error *error)
 {
-    gm_kinematics k = {{0.0}, 0.0, {0.0}};
+    const gm_description *d = gearset->description;
+    gm_kinematics k = {{0.0}, 0.0, {0.0}, 0.0};
     gm_configuration_rows rows;
-    gm_status status = neutral_inertias(gearset, &k, error);
-    if (status == GM_OK)
-        status = gm_configuration_rows_make(gearset, gear, &rows, error);
+    int rest[GM_MAX_INPUT_PATHS];
+    gm_rest_gears(d, rest);
+    gm_status status = gm_configuration_rows_make(gearset, rest, &rows, error);
     if (status != GM_OK)
         return status;
-    for (int p = 0; p < gearset->description->n_paths; p++)
+    neutral_inertias(gearset, &rows, &k);
+    gm_configuration_rows_clear(&rows);
+    status = gm_configuration_rows_make(gearset, gear, &rows, error);
+    if (status != GM_OK)
+        return status;
+    for (int p = 0; p < d->n_paths; p++)
         if (gear[p] != 0)
             k.ratio[p] =
                 rows.speed_of[gm_flange_body(gearset, 1 + p) * rows.n_independent];
+    k.inertia_total = gm_coupled_inertia(gearset, &rows, 0, 0);
     gm_configuration_rows_clear(&rows);
     *kinematics = k;
     return GM_OK;
 }
 
-static double cone_torque_of(const gm_description *d, int wheel)
+/* Smallest capacity of a gear's locks at the input flange. A lock whose parts do not turn
+ * with the input in neutral has nothing to synchronise. */
+static double gear_capacity(const gm_gearset *gearset, const gm_configuration_rows *rows,
+                            const gm_path_gear *gear, int column)
 {
-    for (int s = 0; s < d->n_synchronisers; s++)
-        for (int k = 0; k < d->synchronisers[s].n_wheels; k++)
-            if (d->synchronisers[s].wheels[k] == wheel)
-                return d->synchronisers[s].cone_torque;
-    return (double)INFINITY;
+    double smallest = (double)INFINITY;
+    for (int i = 0; i < gear->n_locks; i++) {
+        const gm_row row = gm_lock_row(gearset, &gear->locks[i]);
+        double slip = 0.0;
+        for (int k = 0; k < row.n; k++)
+            slip += row.g[k] * rows->speed_of[row.body[k] * rows->n_independent + column];
+        if (fabs(slip) > 1e-9)
+            smallest =
+                fmin(smallest, gm_lock_capacity(gearset->description, &gear->locks[i]) *
+                                   fabs(slip));
+    }
+    return smallest;
 }
 
 double gm_gearset_sync_torque(const gm_gearset *gearset, int p)
 {
-    const gm_description *d = gearset->description;
-    const int neutral[GM_MAX_INPUT_PATHS] = {0};
+    const gm_path_part *path = &gearset->description->paths[p];
+    int rest[GM_MAX_INPUT_PATHS];
     gm_configuration_rows rows;
-    if (gm_configuration_rows_make(gearset, neutral, &rows, NULL) != GM_OK)
+    gm_rest_gears(gearset->description, rest);
+    if (gm_configuration_rows_make(gearset, rest, &rows, NULL) != GM_OK)
         return (double)NAN;
     double smallest = (double)INFINITY;
-    int column = gm_flange_column(&rows, 1 + p);
-    for (int i = 0; i < d->paths[p].n_gears; i++) {
-        int w = d->paths[p].gears[i].wheel;
-        const double *wheel = rows.speed_of + gearset->wheel_body[w] * rows.n_independent;
-        const double *shaft = rows.speed_of + d->wheels[w].shaft * rows.n_independent;
-        smallest =
-            fmin(smallest, cone_torque_of(d, w) * fabs(wheel[column] - shaft[column]));
-    }
+    for (int i = 0; i < path->n_gears && path->has_neutral; i++)
+        smallest = fmin(smallest, gear_capacity(gearset, &rows, &path->gears[i],
+                                                gm_flange_column(&rows, 1 + p)));
     gm_configuration_rows_clear(&rows);
     return smallest;
 }

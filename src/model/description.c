@@ -130,12 +130,39 @@ static int by_number(const void *a, const void *b)
     return (x->number > y->number) - (x->number < y->number);
 }
 
+/* Number 0 stands apart: what is locked while the path is in no gear. A second one stays
+ * and is refused like any number that stands twice. */
+static void take_neutral_out(gm_path_part *path)
+{
+    int i = 0;
+    while (i < path->n_gears && path->gears[i].number != 0)
+        i++;
+    int found = i < path->n_gears;
+    path->neutral = (gm_path_gear){.ratio = (double)NAN, .line = path->id.line};
+    if (found) {
+        path->neutral = path->gears[i];
+        path->n_gears--;
+        memmove(&path->gears[i], &path->gears[i + 1],
+                (size_t)(path->n_gears - i) * sizeof *path->gears);
+    }
+    path->has_neutral = found || path->n_gears != 1 || path->gears[0].n_locks > 0;
+}
+
+/* Splines without play. */
+static void complete_clutches(gm_description *d)
+{
+    for (int i = 0; i < d->n_clutches; i++)
+        d->clutches[i].closed.model = GM_CONTACT_LINEAR;
+}
+
 /* Order that does not depend on the file: odd before even, gears by number. */
 static void arrange(gm_description *d)
 {
-    for (int p = 0; p < d->n_paths; p++)
+    for (int p = 0; p < d->n_paths; p++) {
         qsort(d->paths[p].gears, (size_t)d->paths[p].n_gears, sizeof *d->paths[p].gears,
               by_number);
+        take_neutral_out(&d->paths[p]);
+    }
     if (d->n_paths == 2 && strcmp(d->paths[0].id.name, "even") == 0) {
         gm_path_part even = d->paths[0];
         d->paths[0] = d->paths[1];
@@ -196,6 +223,8 @@ static gm_status complete(gm_description *d, gm_error *error)
             w->bore = w->bearing.D;
         if (isnan(w->bore) && s)
             w->bore = s->diameter;
+        if (w->planets > 0 && isnan(w->pin_angle))
+            w->pin_angle = 0.0;
     }
     return status;
 }
@@ -216,6 +245,7 @@ static gm_status read_into(const char *path, gm_description *d, gm_error *error)
         status = gm_description_fields(d, tree, error);
     if (status == GM_OK) {
         arrange(d);
+        complete_clutches(d);
         status = complete(d, error);
     }
     if (status == GM_OK)
@@ -240,6 +270,14 @@ gm_status gm_description_read(const char *path, gm_description **description,
     return GM_OK;
 }
 
+static void destroy_path(gm_path_part *path)
+{
+    for (int i = 0; path->gears && i < path->n_gears; i++)
+        gm_free(path->gears[i].locks);
+    gm_free(path->neutral.locks);
+    gm_free(path->gears);
+}
+
 void gm_description_destroy(gm_description *d)
 {
     if (!d)
@@ -249,7 +287,7 @@ void gm_description_destroy(gm_description *d)
     for (int i = 0; d->synchronisers && i < d->n_synchronisers; i++)
         gm_free(d->synchronisers[i].wheels);
     for (int i = 0; i < GM_MAX_INPUT_PATHS; i++)
-        gm_free(d->paths[i].gears);
+        destroy_path(&d->paths[i]);
     gm_free(d->shafts);
     gm_free(d->wheels);
     gm_free(d->meshes);
@@ -257,6 +295,7 @@ void gm_description_destroy(gm_description *d)
     gm_free(d->seals);
     gm_free(d->gaps);
     gm_free(d->synchronisers);
+    gm_free(d->clutches);
     gm_free(d->title);
     gm_free(d->file);
     gm_free(d);

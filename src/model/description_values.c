@@ -164,6 +164,14 @@ static const char *name_of(const collection *c, int i)
     return c->first + (size_t)i * c->size + offsetof(gm_label, name);
 }
 
+static int find_name(const collection *c, const char *name)
+{
+    for (int i = 0; i < c->n; i++)
+        if (strcmp(name_of(c, i), name) == 0)
+            return i;
+    return -1;
+}
+
 static gm_status unknown_reference(const gm_field_reader *r, const gm_slot *s,
                                    const collection *c)
 {
@@ -181,11 +189,11 @@ static gm_status read_reference(const gm_field_reader *r, const gm_slot *s)
 {
     const int housing = GM_HOUSING;
     collection c = find_collection(r, s->field->section);
-    for (int i = 0; s->node->kind == GM_YAML_SCALAR && i < c.n; i++)
-        if (strcmp(name_of(&c, i), s->node->text) == 0) {
-            memcpy(s->target, &i, sizeof i);
-            return GM_OK;
-        }
+    int found = s->node->kind == GM_YAML_SCALAR ? find_name(&c, s->node->text) : -1;
+    if (found >= 0) {
+        memcpy(s->target, &found, sizeof found);
+        return GM_OK;
+    }
     if (s->field->need == GM_NEED_NOTHING && s->node->kind == GM_YAML_SCALAR &&
         strcmp(s->node->text, "housing") == 0) {
         memcpy(s->target, &housing, sizeof housing);
@@ -222,6 +230,56 @@ static gm_status read_references(const gm_field_reader *r, const gm_slot *s)
     return status;
 }
 
+/* Neither of the two collections has it: look for a near name in both. */
+static gm_status unknown_lock(const gm_field_reader *r, const gm_slot *s,
+                              const collection both[2])
+{
+    const char *names[2 * MAX_CANDIDATES];
+    char hint[GM_NAME_SIZE + 32];
+    int n = 0;
+    if (s->node->kind != GM_YAML_SCALAR)
+        return gm_slot_wrong(r, s, "");
+    for (int c = 0; c < 2; c++)
+        for (int i = 0; i < both[c].n && i < MAX_CANDIDATES; i++)
+            names[n++] = name_of(&both[c], i);
+    return gm_slot_wrong(r, s, suggest(s->node->text, n, names, hint, sizeof hint));
+}
+
+static gm_status read_lock(const gm_field_reader *r, const gm_slot *s)
+{
+    const collection both[2] = {find_collection(r, s->field->section),
+                                find_collection(r, s->field->other)};
+    for (int c = 0; c < 2 && s->node->kind == GM_YAML_SCALAR; c++) {
+        const gm_lock lock = {c, find_name(&both[c], s->node->text)};
+        if (lock.index >= 0) {
+            memcpy(s->target, &lock, sizeof lock);
+            return GM_OK;
+        }
+    }
+    return unknown_lock(r, s, both);
+}
+
+/* One name, or a list of them. */
+static gm_status read_locks(const gm_field_reader *r, const gm_slot *s)
+{
+    int is_list = s->node->kind == GM_YAML_LIST, n = is_list ? s->node->n : 1;
+    gm_lock *locks = NULL;
+    gm_status status = GM_OK;
+    if (n > 0) {
+        locks = gm_calloc((size_t)n, sizeof *locks);
+        if (!locks)
+            return out_of_memory(r);
+    }
+    memcpy(s->target, &locks, sizeof locks);
+    memcpy(s->in->base + s->field->count_offset, &n, sizeof n);
+    for (int i = 0; i < n && status == GM_OK; i++) {
+        gm_slot item = {s->in, s->field, is_list ? s->node->item[i] : s->node,
+                        (char *)&locks[i]};
+        status = read_lock(r, &item);
+    }
+    return status;
+}
+
 gm_status gm_slot_read(const gm_field_reader *r, const gm_slot *s)
 {
     switch (s->field->type) {
@@ -241,6 +299,8 @@ gm_status gm_slot_read(const gm_field_reader *r, const gm_slot *s)
         return read_reference(r, s);
     case GM_FIELD_REFERENCES:
         return read_references(r, s);
+    case GM_FIELD_LOCKS:
+        return read_locks(r, s);
     case GM_FIELD_GROUP:
     case GM_FIELD_ITEMS:
     case GM_FIELD_INLINE:

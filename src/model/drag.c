@@ -13,6 +13,9 @@
  * Oil films in gaps, Petroff 1883: T = 2 pi eta w r^3 L / c, for c much less than r and
  * laminar flow (w r c / nu below about 1000).
  *
+ * Open wet clutches and brakes, n gaps with a full film: the same shear stress
+ * eta w r / h over discs, T = n pi eta w (r_o^4 - r_i^4) / (2 h).
+ *
  * Gears in the oil bath, Changenet and Velex, "A Model for the Prediction of Churning
  * Losses in Geared Transmissions", J. Mech. Des. 129 (2007):
  *   T   = 1/2 rho w^2 R_p^3 S_m C_m
@@ -63,6 +66,13 @@ gm_speed_torque gm_petroff_torque(double r, double L, double c, const gm_oil *oi
 {
     double slope = 2. * GM_PI * oil->eta * r * r * r * L / c;
     return (gm_speed_torque){slope * w, slope};
+}
+
+gm_speed_torque gm_clutch_drag(int n, double r_i, double r_o, double h, const gm_oil *oil,
+                               double w)
+{
+    double k = 0.5 * n * GM_PI * oil->eta * (pow(r_o, 4.) - pow(r_i, 4.)) / h;
+    return (gm_speed_torque){k * w, k};
 }
 
 /* S_m */

@@ -20,6 +20,12 @@ gm_speed_torque gm_seal_torque(gm_seal_model model, double d, const gm_oil *oil,
 gm_speed_torque gm_petroff_torque(double r, double L, double c, const gm_oil *oil,
                                   double w);
 
+/** Friction surfaces of an open wet clutch or brake, n of them, r_i < r_o and clearance h
+ *  each [m]: full oil film, n pi eta w (r_o^4 - r_i^4) / (2 h). At high slip the film
+ *  shrinks, so this is an upper bound there. */
+gm_speed_torque gm_clutch_drag(int n, double r_i, double r_o, double h, const gm_oil *oil,
+                               double w);
+
 /** A gear in the oil bath: pitch radius R_p, face width b, immersion depth h, volume V_0
  *  of the bath [m, m3], R_p, b and V_0 > 0. */
 typedef struct gm_dip {

@@ -16,103 +16,6 @@ static gm_status no_memory(gm_error *error)
     return gm_fail(error, GM_ERR_MEMORY, "out of memory");
 }
 
-/* ---- meshes ---- */
-
-static double centre_distance(const gm_description *d, const gm_mesh *mesh)
-{
-    const gm_shaft *a = &d->shafts[d->wheels[mesh->wheel[0]].shaft];
-    const gm_shaft *b = &d->shafts[d->wheels[mesh->wheel[1]].shaft];
-    return hypot(b->y - a->y, b->z - a->z);
-}
-
-static gm_pair make_pair(const gm_description *d, const gm_mesh *mesh)
-{
-    const gm_wheel *w0 = &d->wheels[mesh->wheel[0]], *w1 = &d->wheels[mesh->wheel[1]];
-    const int z[2] = {w0->internal ? -w0->teeth : w0->teeth,
-                      w1->internal ? -w1->teeth : w1->teeth};
-    const double x[2] = {w0->profile_shift, w1->profile_shift};
-    return gm_pair_make(z, w0->normal_module, w0->pressure_angle, fabs(w0->helix), x,
-                        fmin(w0->width, w1->width), centre_distance(d, mesh));
-}
-
-/* Normal force of a mesh on one wheel. With e from the wheel's centre to the pitch
- * point's side and t = x cross e, the base-tangent force F gives the torque -r_b F about
- * +x: F_t = -F cos(alpha_wt) along t, |F| sin(alpha_wt) away from the mate, and the axial
- * force -h F_t tan(beta_w), h = +1 for right-hand teeth (derived from the tooth trace).
- */
-static gm_contact make_contact(const gm_description *d, const gm_mesh *mesh,
-                               const gm_pair *pair, int side)
-{
-    const gm_wheel *own = &d->wheels[mesh->wheel[side]];
-    const gm_wheel *mate = &d->wheels[mesh->wheel[1 - side]];
-    const gm_shaft *s = &d->shafts[own->shaft], *o = &d->shafts[mate->shaft];
-    double a = hypot(o->y - s->y, o->z - s->z);
-    double out = mate->internal ? -1.0 : 1.0; /* inside a ring: away from its centre */
-    double e_y = out * (o->y - s->y) / a, e_z = out * (o->z - s->z) / a;
-    double t_y = -e_z, t_z = e_y;
-    double r_w = 0.5 * fabs(pair->d_w[side]);
-    double row_sign = own->internal ? -1.0 : 1.0;
-    double F_t = -row_sign * cos(pair->alpha_wt);
-    double F_r = (own->internal ? -1.0 : 1.0) * sin(pair->alpha_wt);
-    double tan_beta_w = tan(own->helix) * pair->d_w[side] / pair->d[side];
-    return (gm_contact){
-        .signed_part = {-F_t * tan_beta_w, F_t * t_y, F_t * t_z},
-        .magnitude_part = {0.0, -F_r * e_y, -F_r * e_z},
-        .point = {own->position, s->y + r_w * e_y, s->z + r_w * e_z},
-    };
-}
-
-/* Rows of a mesh: along the line of action, and of its rolling speed. */
-static void make_rows(const gm_gearset *gearset, const gm_mesh *mesh,
-                      gm_mesh_element *element)
-{
-    gm_row *row = &element->row, *roll = &element->roll;
-    for (int side = 0; side < 2; side++) {
-        const gm_wheel *wheel = &gearset->description->wheels[mesh->wheel[side]];
-        double sign = wheel->internal ? -1.0 : 1.0;
-        row->body[side] = gearset->wheel_body[mesh->wheel[side]];
-        row->g[side] = 0.5 * sign * fabs(element->pair.d_b[side]);
-    }
-    row->n = 2;
-    row->body[2] = element->carrier;
-    row->g[2] = -(row->g[0] + row->g[1]);
-    if (element->carrier != GM_HOUSING)
-        row->n = 3;
-    *roll = *row;
-    roll->g[0] = 0.5 * row->g[0];
-    roll->g[1] = -0.5 * row->g[1];
-    roll->g[2] = -(roll->g[0] + roll->g[1]);
-}
-
-static void make_mesh(gm_gearset *gearset, int m)
-{
-    const gm_description *d = gearset->description;
-    const gm_mesh *mesh = &d->meshes[m];
-    gm_mesh_element *element = &gearset->meshes[m];
-    element->pair = make_pair(d, mesh);
-    element->cos_alpha_wt = cos(element->pair.alpha_wt);
-    double roughness =
-        0.5 * (d->wheels[mesh->wheel[0]].roughness + d->wheels[mesh->wheel[1]].roughness);
-    element->law = gm_mesh_law_make(mesh, &element->pair, roughness, &gearset->oil);
-    element->carrier = GM_HOUSING;
-    element->contacts = 1;
-    make_rows(gearset, mesh, element);
-    for (int side = 0; side < 2; side++)
-        element->contact[side] = make_contact(d, mesh, &element->pair, side);
-}
-
-static gm_status make_meshes(gm_gearset *gearset, gm_error *error)
-{
-    int n = gearset->description->n_meshes;
-    gearset->meshes = gm_calloc((size_t)n, sizeof *gearset->meshes);
-    if (!gearset->meshes)
-        return no_memory(error);
-    gearset->n_meshes = n;
-    for (int m = 0; m < n; m++)
-        make_mesh(gearset, m);
-    return GM_OK;
-}
-
 /* ---- bearings ---- */
 
 static gm_status make_law(const gm_gearset *gearset, const gm_bearing_data *data,
@@ -145,7 +48,8 @@ static gm_status shaft_bearings(gm_gearset *gearset, gm_error *error)
         *element = (gm_bearing_element){.kind = GM_LOSS_BEARING,
                                         .name = bearing->id.name,
                                         .body = bearing->shaft,
-                                        .on = bearing->on};
+                                        .on = bearing->on,
+                                        .count = 1};
         gm_status status =
             make_law(gearset, &bearing->data, &bearing->id, &element->law, error);
         if (status != GM_OK)
@@ -184,6 +88,24 @@ done:
     return status;
 }
 
+/* A planet turns around its carrier: weight goes round with it and is left out, the force
+ * on its pin points outwards. Every planet carries its share of the row forces. */
+static void load_planet(const gm_description *d, const gm_wheel *wheel,
+                        gm_bearing_element *element)
+{
+    gm_load_row *load = &element->load;
+    double pull = gm_wheel_mass(d, wheel) * wheel->pin_radius;
+    element->centrifugal[1] = pull * cos(wheel->pin_angle);
+    element->centrifugal[2] = pull * sin(wheel->pin_angle);
+    for (int i = 0; i < 3; i++) {
+        load->weight[i] = 0.0;
+        for (int k = 0; k < load->n; k++) {
+            load->a[k][i] /= wheel->planets;
+            load->b[k][i] /= wheel->planets;
+        }
+    }
+}
+
 static gm_status idler_bearings(gm_gearset *gearset, gm_error *error)
 {
     const gm_description *d = gearset->description;
@@ -196,10 +118,13 @@ static gm_status idler_bearings(gm_gearset *gearset, gm_error *error)
         *element = (gm_bearing_element){.kind = GM_LOSS_IDLER,
                                         .name = wheel->id.name,
                                         .body = gearset->wheel_body[w],
-                                        .on = wheel->shaft};
+                                        .on = wheel->shaft,
+                                        .count = wheel->planets > 0 ? wheel->planets : 1};
         status = make_law(gearset, &wheel->bearing, &wheel->id, &element->law, error);
         if (status == GM_OK)
             status = wheel_load(gearset, w, &element->load, error);
+        if (status == GM_OK && wheel->planets > 0)
+            load_planet(d, wheel, element);
     }
     return status;
 }
@@ -215,8 +140,23 @@ static int collect_masses(const gm_gearset *gearset, gm_static_mass *masses)
     for (int w = 0; w < d->n_wheels; w++, n++)
         masses[n] = (gm_static_mass){.shaft = d->wheels[w].shaft,
                                      .position = d->wheels[w].position,
-                                     .mass = gm_wheel_mass(d, &d->wheels[w])};
+                                     .mass = fmax(1.0, d->wheels[w].planets) *
+                                             gm_wheel_mass(d, &d->wheels[w])};
     return n;
+}
+
+/* Force of a mesh on the shaft that carries one of its wheels. Contacts that stand evenly
+ * around its axis leave the sum of their axial forces. */
+static gm_contact contact_on_shaft(const gm_gearset *gearset, int m, int side)
+{
+    const gm_description *d = gearset->description;
+    const gm_contact *c = &gearset->meshes[m].contact[side];
+    const gm_shaft *s = &d->shafts[d->wheels[d->meshes[m].wheel[side]].shaft];
+    if (gearset->meshes[m].contacts == 1)
+        return *c;
+    return (gm_contact){.signed_part = {c->signed_part[0], 0.0, 0.0},
+                        .magnitude_part = {c->magnitude_part[0], 0.0, 0.0},
+                        .point = {c->point[0], s->y, s->z}};
 }
 
 /* Loads of the shaft bearings by statics. */
@@ -235,7 +175,7 @@ static gm_status shaft_loads(gm_gearset *gearset, gm_error *error)
     for (int m = 0; m < d->n_meshes; m++)
         for (int side = 0; side < 2; side++) {
             meshes[m].shaft[side] = d->wheels[d->meshes[m].wheel[side]].shaft;
-            meshes[m].contact[side] = gearset->meshes[m].contact[side];
+            meshes[m].contact[side] = contact_on_shaft(gearset, m, side);
         }
     int n_masses = collect_masses(gearset, masses);
     status = gm_statics_solve(d, d->n_meshes, meshes, n_masses, masses, rows, error);
@@ -261,6 +201,16 @@ static gm_status make_bearings(gm_gearset *gearset, gm_error *error)
     if (status == GM_OK)
         status = idler_bearings(gearset, error);
     return status;
+}
+
+void gm_bearing_loads(const gm_bearing_element *bearing, const double *w, const double *F,
+                      double *radial, double *axial, double *d_radial, double *d_axial)
+{
+    gm_load_row load = bearing->load;
+    double w_on = bearing->on == GM_HOUSING ? 0.0 : w[bearing->on];
+    for (int i = 0; i < 3; i++)
+        load.weight[i] += bearing->centrifugal[i] * w_on * w_on;
+    gm_load_row_at(&load, F, radial, axial, d_radial, d_axial);
 }
 
 /* ---- drags of speed alone ---- */
@@ -308,6 +258,24 @@ static void add_cones(gm_gearset *gearset)
     }
 }
 
+/* A closed clutch has no relative speed and so no drag. */
+static void add_clutches(gm_gearset *gearset)
+{
+    const gm_description *d = gearset->description;
+    for (int i = 0; i < d->n_clutches; i++)
+        if (d->clutches[i].surfaces > 0)
+            gearset->drags[gearset->n_drags++] =
+                (gm_drag_element){.kind = GM_LOSS_CLUTCH,
+                                  .name = d->clutches[i].id.name,
+                                  .body = d->clutches[i].shaft,
+                                  .on = d->clutches[i].on,
+                                  .law = GM_DRAG_CLUTCH,
+                                  .radius = d->clutches[i].outer_radius,
+                                  .clearance = d->clutches[i].clearance,
+                                  .surfaces = d->clutches[i].surfaces,
+                                  .inner_radius = d->clutches[i].inner_radius};
+}
+
 static void add_churning(gm_gearset *gearset)
 {
     const gm_description *d = gearset->description;
@@ -316,7 +284,7 @@ static void add_churning(gm_gearset *gearset)
         double tip = wheel->normal_module * (0.5 * wheel->teeth / cos(wheel->helix) +
                                              1.0 + wheel->profile_shift);
         double depth = d->oil.level - (d->shafts[wheel->shaft].z - tip);
-        if (!wheel->churning || isnan(d->oil.level) || depth <= 0.0)
+        if (!wheel->churning || wheel->planets > 0 || isnan(d->oil.level) || depth <= 0.0)
             continue;
         gearset->drags[gearset->n_drags++] = (gm_drag_element){
             .kind = GM_LOSS_CHURNING,
@@ -334,7 +302,7 @@ static void add_churning(gm_gearset *gearset)
 static gm_status make_drags(gm_gearset *gearset, gm_error *error)
 {
     const gm_description *d = gearset->description;
-    int n = d->n_seals + d->n_gaps + d->n_wheels;
+    int n = d->n_seals + d->n_gaps + d->n_clutches + d->n_wheels;
     for (int i = 0; i < d->n_synchronisers; i++)
         n += d->synchronisers[i].n_wheels;
     gearset->drags = gm_calloc((size_t)n, sizeof *gearset->drags);
@@ -342,6 +310,7 @@ static gm_status make_drags(gm_gearset *gearset, gm_error *error)
         return no_memory(error);
     add_seals_and_gaps(gearset);
     add_cones(gearset);
+    add_clutches(gearset);
     add_churning(gearset);
     return GM_OK;
 }
@@ -358,11 +327,13 @@ gm_status gm_gearset_create(const gm_description *description, double oil_temper
     g->oil = gm_oil_at(&description->oil, oil_temperature);
     gm_status status = gm_bodies_make(g, error);
     if (status == GM_OK)
-        status = make_meshes(g, error);
+        status = gm_meshes_make(g, error);
     if (status == GM_OK)
         status = make_bearings(g, error);
     if (status == GM_OK)
         status = make_drags(g, error);
+    if (status == GM_OK)
+        status = gm_gearset_check_inertia(g, error);
     if (status == GM_OK)
         status = gm_gearset_check_ratios(g, error);
     if (status != GM_OK) {
@@ -415,6 +386,8 @@ const char *gm_loss_kind_name(gm_loss_kind kind)
         return "seals";
     case GM_LOSS_SYNCHRONISER:
         return "open synchronisers";
+    case GM_LOSS_CLUTCH:
+        return "open clutches";
     case GM_LOSS_GAP:
         return "concentric shafts";
     case GM_LOSS_CHURNING:

@@ -45,14 +45,23 @@ typedef struct gm_bearing_element {
     gm_loss_kind kind;
     const char *name;
     int body, on; /* on = GM_HOUSING: relative to the housing */
+    int count;    /* equal bearings under equal load that the element stands for */
     gm_bearing_law law;
-    gm_load_row load;
+    gm_load_row load;      /* of one of them */
+    double centrifugal[3]; /* force of a planet on its pin per speed of `on` squared,
+                              N s2/rad2, in the directions of load */
 } gm_bearing_element;
+
+/** Loads of one bearing at row forces F and body speeds w [rad/s], and their derivatives
+ *  as gm_load_row_at. */
+void gm_bearing_loads(const gm_bearing_element *bearing, const double *w, const double *F,
+                      double *radial, double *axial, double *d_radial, double *d_axial);
 
 /** A drag of speed alone between two bodies. */
 typedef enum gm_drag_law {
     GM_DRAG_SEAL,
     GM_DRAG_GAP, /* Petroff: shaft gaps and open cones */
+    GM_DRAG_CLUTCH,
     GM_DRAG_CHURNING
 } gm_drag_law;
 
@@ -62,7 +71,9 @@ typedef struct gm_drag_element {
     int body, on;
     gm_drag_law law;
     gm_seal_model seal;
-    double radius, length, clearance; /* seal: radius only */
+    double radius, length, clearance; /* seal: radius only; clutch: outer radius */
+    int surfaces;                     /* of a clutch */
+    double inner_radius;
     gm_dip dip;
 } gm_drag_element;
 
@@ -98,10 +109,25 @@ gm_speed_torque gm_drag_torque(const gm_gearset *gearset, const gm_drag_element 
 /** Fill bodies and wheel_body. */
 GM_NODISCARD gm_status gm_bodies_make(gm_gearset *gearset, gm_error *error);
 
+/** Fill meshes, after the bodies. GM_ERR_MEMORY. */
+GM_NODISCARD gm_status gm_meshes_make(gm_gearset *gearset, gm_error *error);
+
+/** Axis of a wheel, of planets that of the first: y, z [m]. */
+void gm_wheel_axis(const gm_description *description, int wheel, double axis[2]);
+
+/** Distance of two wheels' axes [m]. */
+double gm_wheel_distance(const gm_description *description, const int wheel[2]);
+
 /** Every given ratio must be the one that the gears make, within 1e-3 of it and with its
  *  sign. GM_ERR_MODEL with file, line, path, gear and both ratios; GM_ERR_MEMORY. */
 GM_NODISCARD gm_status gm_gearset_check_ratios(const gm_gearset *gearset,
                                                gm_error *error);
+
+/** What the reduced gearset takes for granted: in no configuration does inertia couple
+ *  two independent speeds, a path in neutral has the same inertia in all of them, and
+ *  gears of two paths add up. GM_ERR_MODEL with file, line and path; GM_ERR_MEMORY. */
+GM_NODISCARD gm_status gm_gearset_check_inertia(const gm_gearset *gearset,
+                                                gm_error *error);
 
 /** Pitch mass of a wheel from its dimensions, or as given [kg]. */
 double gm_wheel_mass(const gm_description *description, const gm_wheel *wheel);
@@ -109,13 +135,17 @@ double gm_wheel_mass(const gm_description *description, const gm_wheel *wheel);
 /** Shaft mass, as given or from its segments [kg], and its centre along x [m]. */
 double gm_shaft_mass(const gm_shaft *shaft, double *centre);
 
+/** Row of a lock: relative speed of the two parts that it locks. */
+gm_row gm_lock_row(const gm_gearset *gearset, const gm_lock *lock);
+
 /** Speeds of all bodies over the independent speeds of a configuration. */
 typedef struct gm_configuration_rows {
     int n_bodies;
-    int n_rows;                 /* meshes, then one lock per engaged path */
+    int n_rows;                 /* meshes, then locks */
     int n_independent;          /* output, then the paths in neutral */
     int flange[GM_MAX_FLANGES]; /* flange of each independent speed */
-    gm_row lock[GM_MAX_INPUT_PATHS];
+    gm_row *lock;               /* [n_locks] */
+    const gm_lock **locked;     /* [n_locks]: what each of them is */
     int n_locks;
     double *speed_of; /* [n_bodies][n_independent] */
     double *balance;  /* A [n_bodies][n_bodies]: row forces and flange torques -> torques
@@ -128,6 +158,14 @@ GM_NODISCARD gm_status gm_configuration_rows_make(const gm_gearset *gearset,
                                                   gm_configuration_rows *rows,
                                                   gm_error *error);
 void gm_configuration_rows_clear(gm_configuration_rows *rows);
+
+/** Inertia between two independent speeds of a configuration: sum of J dw/du_i dw/du_k
+ *  [kg.m2]. */
+double gm_coupled_inertia(const gm_gearset *gearset, const gm_configuration_rows *rows,
+                          int i, int k);
+
+/** Gears of the configuration in which every path rests: neutral, or its only gear. */
+void gm_rest_gears(const gm_description *description, int gear[GM_MAX_INPUT_PATHS]);
 
 /** Column of a flange's speed among the independent speeds; -1 when it is not one. */
 int gm_flange_column(const gm_configuration_rows *rows, int flange);

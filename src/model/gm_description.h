@@ -75,17 +75,21 @@ typedef struct gm_wheel {
     gm_label id;
     int shaft;
     int teeth;
-    double normal_module;    /* m */
-    double helix;            /* rad, > 0 right-handed */
-    double pressure_angle;   /* normal, rad */
-    double profile_shift;    /* x */
-    double width;            /* m */
-    double position;         /* axial, middle of the face, m */
-    double roughness;        /* Ra, m */
-    int internal;            /* 1: internal teeth (ring) */
-    int idles;               /* 1: turns on its shaft until a synchroniser locks it */
-    double inertia, mass;    /* NAN: disc from bore to pitch diameter */
-    double bore;             /* of that disc; if not given: the shaft's diameter at the
+    double normal_module;  /* m */
+    double helix;          /* rad, > 0 right-handed */
+    double pressure_angle; /* normal, rad */
+    double profile_shift;  /* x */
+    double width;          /* m */
+    double position;       /* axial, middle of the face, m */
+    double roughness;      /* Ra, m */
+    int internal;          /* 1: internal teeth (ring) */
+    int idles;             /* 1: turns on its shaft until a synchroniser locks it */
+    int planets;           /* so many, evenly on pins of the shaft, their carrier; 0: not
+                                a planet */
+    double pin_radius;     /* of a planet: axis of the carrier to its own, m */
+    double pin_angle;      /* of the first planet, from y to z, rad */
+    double inertia, mass;  /* NAN: disc from bore to pitch diameter */
+    double bore;           /* of that disc; if not given: the shaft's diameter at the
                                 position, of an idling gear its bearing's D [m] */
     gm_bearing_data bearing; /* of an idling gear */
     int churning;            /* 1: computed when it dips into the oil */
@@ -102,7 +106,7 @@ typedef enum gm_mesh_method { GM_MESH_ISO14179_2, GM_MESH_ISO14179_1 } gm_mesh_m
 typedef enum gm_contact_model {
     GM_CONTACT_FILM,  /* an oil film: entered softly, damped also in the gap */
     GM_CONTACT_DRY,   /* dry flanks: no force in the gap, no pull */
-    GM_CONTACT_LINEAR /* no gap (not in the file: shafts) */
+    GM_CONTACT_LINEAR /* no gap (not in the file: shafts, clutches) */
 } gm_contact_model;
 
 /** What happens between flanks: of a mesh, or of a synchroniser's dogs. */
@@ -172,19 +176,49 @@ typedef struct gm_synchroniser {
     gm_flanks dogs;
 } gm_synchroniser;
 
+/** A clutch between two concentric shafts, or a brake: a lock inside the gearset. */
+typedef struct gm_clutch {
+    gm_label id;
+    int shaft;
+    int on; /* the other shaft; GM_HOUSING: a brake */
+    double torque_capacity;
+    int surfaces;                      /* friction surfaces; 0: no open drag */
+    double inner_radius, outer_radius; /* m */
+    double clearance;                  /* of one open gap, m */
+    gm_flanks closed;                  /* what gives way when it is closed */
+} gm_clutch;
+
+/** What a gear of a path locks. */
+typedef struct gm_lock {
+    int is_clutch; /* 1: index of a clutch; 0: of an idling gear, locked to its shaft */
+    int index;
+} gm_lock;
+
 typedef struct gm_path_gear {
     int number;
-    int wheel;    /* the idling gear that is locked to its shaft */
-    double ratio; /* given overall ratio input/output, signed; NAN: not given */
+    int n_locks;
+    gm_lock *locks; /* [n_locks] */
+    double ratio;   /* given overall ratio input/output, signed; NAN: not given */
     int line;
 } gm_path_gear;
 
+/** A path that has one gear, which locks nothing, has no neutral: gear 0 is no gear of
+ *  it and its rest gear, which it is in while another path is looked at alone, is that
+ *  gear. */
 typedef struct gm_path_part {
     gm_label id; /* "odd", "even" or "input" */
     int shaft;
     int n_gears;
-    gm_path_gear *gears; /* ascending by number */
+    gm_path_gear *gears;  /* ascending by number, without 0 */
+    gm_path_gear neutral; /* number 0: what is locked in neutral */
+    int has_neutral;
 } gm_path_part;
+
+/** Number of a path's rest gear: 0, or its only gear. */
+int gm_path_rest_gear(const gm_path_part *path);
+
+/** What a path locks in a gear, 0 for neutral; NULL: it has no such gear. */
+const gm_path_gear *gm_path_gear_of(const gm_path_part *path, int number);
 
 typedef struct gm_oil_part {
     char name[GM_NAME_SIZE];
@@ -208,7 +242,7 @@ typedef struct gm_description {
     double torque_max; /* input, N.m */
     gm_oil_part oil;
     int n_shafts, n_wheels, n_meshes, n_bearings, n_seals, n_gaps, n_synchronisers,
-        n_paths;
+        n_clutches, n_paths;
     gm_shaft *shafts;
     gm_wheel *wheels;
     gm_mesh *meshes;
@@ -216,6 +250,7 @@ typedef struct gm_description {
     gm_seal *seals;
     gm_gap *gaps;
     gm_synchroniser *synchronisers;
+    gm_clutch *clutches;
     gm_path_part paths[GM_MAX_INPUT_PATHS]; /* "odd" before "even" */
     int output;                             /* shaft */
 } gm_description;
@@ -228,6 +263,14 @@ typedef struct gm_description {
 GM_NODISCARD gm_status gm_description_read(const char *path, gm_description **description,
                                            gm_error *error);
 void gm_description_destroy(gm_description *description);
+
+/** The synchroniser that locks an idling gear; NULL: none does. */
+const gm_synchroniser *gm_synchroniser_of(const gm_description *description, int wheel);
+
+/** Name of what is locked, and the torque up to which it synchronises [N.m]; infinite
+ *  without a synchroniser. */
+const char *gm_lock_name(const gm_description *description, const gm_lock *lock);
+double gm_lock_capacity(const gm_description *description, const gm_lock *lock);
 
 /** Reference of the file format, derived from the schema: calls write with successive
  *  pieces of Markdown text. */

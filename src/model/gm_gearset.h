@@ -111,6 +111,7 @@ typedef enum gm_loss_kind {
     GM_LOSS_IDLER,
     GM_LOSS_SEAL,
     GM_LOSS_SYNCHRONISER,
+    GM_LOSS_CLUTCH,
     GM_LOSS_GAP,
     GM_LOSS_CHURNING,
     GM_LOSS_KINDS

@@ -27,10 +27,17 @@ typedef struct gm_steady_result {
 
 /** Kinematics of a configuration. */
 typedef struct gm_kinematics {
-    double ratio[GM_MAX_INPUT_PATHS];   /* w_path / w_output of engaged paths, else 0 */
-    double inertia_output;              /* turns with the output, all in neutral, kg.m2 */
-    double inertia[GM_MAX_INPUT_PATHS]; /* turns with path p, all in neutral, kg.m2 */
+    double ratio[GM_MAX_INPUT_PATHS]; /* w_path / w_output of engaged paths, else 0 */
+    double inertia_output; /* turns with the output, all in neutral, kg.m2; what else
+                              turns with a path without neutral belongs to it */
+    double inertia[GM_MAX_INPUT_PATHS]; /* turns with path p, all in neutral, kg.m2; of a
+                                           path without neutral its flange's body alone */
+    double inertia_total; /* turns with the output in this configuration, kg.m2 */
 } gm_kinematics;
+
+/** What the gears of a configuration add to the inertia at the output beyond J_out and
+ *  r^2 J_p of the engaged paths [kg.m2]; exactly 0 where that is rounding. */
+double gm_extra_inertia(const gm_kinematics *kinematics);
 
 /** How a path gives way between its flange and the held output, in one gear. */
 typedef struct gm_compliance {

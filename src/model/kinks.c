@@ -28,8 +28,9 @@ typedef double (*mesh_kink)(const gm_mesh_law *law, double force, double slide);
 static int find_kinks(const gm_gearset *gearset, int p, int number, mesh_kink kink,
                       int n_max, double *found)
 {
-    int gear[GM_MAX_INPUT_PATHS] = {0};
+    int gear[GM_MAX_INPUT_PATHS];
     gm_configuration_rows rows;
+    gm_rest_gears(gearset->description, gear);
     gear[p] = number;
     if (gm_configuration_rows_make(gearset, gear, &rows, NULL) != GM_OK)
         return 0;
@@ -107,12 +108,13 @@ static double line_of_bearing(const gm_configuration_rows *rows,
 
 int gm_gearset_drag_lines(const gm_gearset *gearset, int p, int n_max, double *ratio)
 {
-    const int neutral[GM_MAX_INPUT_PATHS] = {0};
+    int rest[GM_MAX_INPUT_PATHS];
     gm_configuration_rows rows;
-    if (gm_configuration_rows_make(gearset, neutral, &rows, NULL) != GM_OK)
+    gm_rest_gears(gearset->description, rest);
+    if (gm_configuration_rows_make(gearset, rest, &rows, NULL) != GM_OK)
         return 0;
     int n = 0, column = gm_flange_column(&rows, 1 + p);
-    for (int i = 0; i < gearset->n_bearings; i++) {
+    for (int i = 0; i < gearset->n_bearings && column >= 0; i++) {
         const gm_bearing_element *b = &gearset->bearings[i];
         double line = line_of_bearing(&rows, b, column);
         if (b->law.data.friction != GM_FRICTION_NONE && line != 0.0)

@@ -27,7 +27,7 @@ typedef enum gm_lock_mode {
 
 typedef struct gm_motion_lock {
     const char *name;
-    int wheel;       /* that it locks to its shaft */
+    gm_lock what;    /* idling gear, clutch or brake */
     int row;         /* its row */
     double capacity; /* of its cones, N.m along the row */
     gm_lock_mode mode;
@@ -90,9 +90,6 @@ GM_NODISCARD gm_status gm_motion_make_rows(gm_motion *motion, gm_error *error);
 
 /** gm_path_mode of core/gm_reduced.h that path p is in (motion_modes.c). */
 int gm_motion_path_mode(const gm_motion *motion, int p);
-
-/** The lock of an idling gear; -1: it has none. */
-int gm_motion_lock_of(const gm_motion *motion, int wheel);
 
 /** Name and line of a node: a shaft's or an idling gear's. */
 const gm_label *gm_motion_node_label(const gm_motion *motion, int node);

@@ -15,35 +15,34 @@
  * or take its error. */
 static const double same_speed = 1e-6; /* rad/s */
 
-static const gm_path_gear *gear_of(const gm_path_part *path, int number)
-{
-    for (int i = 0; i < path->n_gears; i++)
-        if (path->gears[i].number == number)
-            return &path->gears[i];
-    return NULL;
-}
-
 static gm_status check_gears(const gm_motion *m, const gm_motion_input *input,
                              gm_error *error)
 {
     const gm_description *d = m->gearset->description;
     for (int p = 0; p < d->n_paths; p++)
-        if (input->gear[p] != 0 && !gear_of(&d->paths[p], input->gear[p]))
+        if (!gm_path_gear_of(&d->paths[p], input->gear[p]))
             return gm_fail(error, GM_ERR_ARGUMENT, "%s: path '%s' has no gear %d",
                            d->file, d->paths[p].id.name, input->gear[p]);
     return GM_OK;
 }
 
-/* Does a gear of these need the lock? */
+/* Does a gear of path p need the lock? */
+static int needs(const gm_motion *m, int lock, int p, int number)
+{
+    const gm_path_gear *g = gm_path_gear_of(&m->gearset->description->paths[p], number);
+    const gm_lock *what = &m->locks[lock].what;
+    for (int i = 0; g && i < g->n_locks; i++)
+        if (g->locks[i].is_clutch == what->is_clutch && g->locks[i].index == what->index)
+            return 1;
+    return 0;
+}
+
 static int wanted(const gm_motion *m, int lock, const int *gear)
 {
-    const gm_description *d = m->gearset->description;
-    for (int p = 0; p < d->n_paths; p++) {
-        const gm_path_gear *g = gear_of(&d->paths[p], gear[p]);
-        if (g && gm_motion_lock_of(m, g->wheel) == lock)
-            return 1;
-    }
-    return 0;
+    int any = 0;
+    for (int p = 0; p < m->gearset->description->n_paths; p++)
+        any |= needs(m, lock, p, gear[p]);
+    return any;
 }
 
 static void set_mode(gm_motion *m, gm_motion_lock *lock, gm_lock_mode mode)
@@ -135,10 +134,8 @@ int gm_motion_path_mode(const gm_motion *motion, int p)
     int closed = 1;
     if (motion->gear[p] == 0)
         return GM_PATH_NEUTRAL;
-    int gear[GM_MAX_INPUT_PATHS] = {0};
-    gear[p] = motion->gear[p];
     for (int i = 0; i < motion->n_locks; i++)
-        if (wanted(motion, i, gear))
+        if (needs(motion, i, p, motion->gear[p]))
             closed &= motion->locks[i].mode == GM_LOCK_CLOSED;
     return closed ? GM_PATH_ENGAGED : GM_PATH_SYNCHRONISING;
 }

@@ -15,6 +15,7 @@ static gm_status count(gm_motion *m, gm_error *error)
     m->n_nodes = g->n_bodies;
     for (int i = 0; i < d->n_synchronisers; i++)
         m->n_locks += d->synchronisers[i].n_wheels;
+    m->n_locks += d->n_clutches;
     m->n_rows = g->n_meshes + m->n_locks;
     m->n_states = m->n_nodes + m->n_rows;
     m->inertia = gm_calloc((size_t)m->n_nodes, sizeof *m->inertia);
@@ -71,34 +72,29 @@ static void make_meshes(gm_motion *m)
     }
 }
 
-static void make_lock(gm_motion *m, int i, const gm_synchroniser *sync, int wheel)
+static void make_lock(gm_motion *m, int i, gm_lock what)
 {
+    const gm_description *d = m->gearset->description;
     gm_motion_row *row = &m->rows[m->gearset->n_meshes + i];
-    row->row = (gm_row){
-        .n = 2, .body = {m->gearset->wheel_body[wheel], sync->shaft}, .g = {1.0, -1.0}};
-    row->law = gm_flanks_law(&sync->dogs, sync->dogs.stiffness, sync->dogs.backlash,
-                             gm_row_reduced_mass(&row->row, m->inertia));
-    m->locks[i] = (gm_motion_lock){.name = m->gearset->description->wheels[wheel].id.name,
-                                   .wheel = wheel,
+    row->row = gm_lock_row(m->gearset, &what);
+    row->law = gm_lock_contact_law(m->gearset, &what,
+                                   gm_row_reduced_mass(&row->row, m->inertia));
+    m->locks[i] = (gm_motion_lock){.name = gm_lock_name(d, &what),
+                                   .what = what,
                                    .row = m->gearset->n_meshes + i,
-                                   .capacity = sync->cone_torque,
+                                   .capacity = gm_lock_capacity(d, &what),
                                    .sense = 1.0};
 }
 
 static void make_locks(gm_motion *m)
 {
     const gm_description *d = m->gearset->description;
-    for (int s = 0, i = 0; s < d->n_synchronisers; s++)
-        for (int k = 0; k < d->synchronisers[s].n_wheels; k++, i++)
-            make_lock(m, i, &d->synchronisers[s], d->synchronisers[s].wheels[k]);
-}
-
-int gm_motion_lock_of(const gm_motion *motion, int wheel)
-{
-    for (int i = 0; i < motion->n_locks; i++)
-        if (motion->locks[i].wheel == wheel)
-            return i;
-    return -1;
+    int n = 0;
+    for (int s = 0; s < d->n_synchronisers; s++)
+        for (int k = 0; k < d->synchronisers[s].n_wheels; k++)
+            make_lock(m, n++, (gm_lock){.index = d->synchronisers[s].wheels[k]});
+    for (int c = 0; c < d->n_clutches; c++)
+        make_lock(m, n++, (gm_lock){.is_clutch = 1, .index = c});
 }
 
 static void make_pairs(gm_motion *m)

@@ -64,6 +64,8 @@ static const gm_field root_fields[] = {
      .help = "oil films between concentric shafts"},
     {PARTS("synchronisers", gm_schema_synchroniser, synchronisers, n_synchronisers),
      OPTIONAL, .help = "what locks idling gears"},
+    {PARTS("clutches", gm_schema_clutch, clutches, n_clutches), OPTIONAL,
+     .help = "what locks shafts: clutches and brakes inside the gearset"},
     {PARTS("paths", gm_schema_path, paths, n_paths), .fixed_count = GM_MAX_INPUT_PATHS,
      .help = "odd and even, or input"},
     {.key = "output", .type = GM_FIELD_REFERENCE, .section = &gm_schema_shaft, AT(output),

@@ -21,6 +21,8 @@ typedef enum gm_field_type {
     GM_FIELD_CHOICE,     /* int-sized enum */
     GM_FIELD_REFERENCE,  /* int: index of a named part */
     GM_FIELD_REFERENCES, /* list of references: int[fixed_count], or int * with a count */
+    GM_FIELD_LOCKS,      /* one name or a list of names, which may be empty, of parts of
+                            `section` or of `other`: gm_lock * with a count */
     GM_FIELD_GROUP,      /* a section, in place */
     GM_FIELD_ITEMS,      /* several items of a section, in memory of their own */
     GM_FIELD_INLINE      /* the section's fields stand among those of the outer one */
@@ -52,6 +54,7 @@ typedef struct gm_field {
     gm_open open;
     const gm_choice *choices;  /* ended by a NULL word */
     const gm_section *section; /* group, items, inline; references: what they name */
+    const gm_section *other;   /* locks: what they can name besides */
     size_t offset;             /* of the value in the outer section's structure */
     size_t count_offset;       /* items, references: of the int count; 0: none */
     int fixed_count;           /* references: exactly so many; items: at most, in place */

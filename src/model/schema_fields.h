@@ -30,6 +30,7 @@ extern const gm_section gm_schema_shaft, gm_schema_seal, gm_schema_gap; /* _shaf
 extern const gm_section gm_schema_bearing_data, gm_schema_bearing;      /* _bearings.c */
 extern const gm_section gm_schema_gear, gm_schema_mesh;                 /* _gears.c */
 extern const gm_section gm_schema_flanks, gm_schema_dogs;               /* _flanks.c */
-extern const gm_section gm_schema_synchroniser, gm_schema_path;         /* _paths.c */
+extern const gm_section gm_schema_synchroniser, gm_schema_clutch;       /* _paths.c */
+extern const gm_section gm_schema_path;
 
 #endif

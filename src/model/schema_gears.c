@@ -28,6 +28,14 @@ static const gm_field gear_fields[] = {
      .help = "true: internal teeth"},
     {.key = "idles", .type = GM_FIELD_BOOLEAN, AT(idles), DEFAULT("false"),
      .help = "true: turns on its shaft until a synchroniser locks it"},
+    {INTEGER("planets", 0, 12), AT(planets), DEFAULT("0"),
+     .help = "planets like this one, evenly around the axis of their carrier, which is "
+             "the shaft; 0: not a planet"},
+    {NUMBER("pin_radius_mm", 0, 2000), ABOVE, AT(pin_radius), OPTIONAL,
+     .help = "of a planet: from the axis of the carrier to that of the planet"},
+    {NUMBER("pin_angle_deg", -360, 360), AT(pin_angle), OPTIONAL,
+     .help = "of a planet: where the first one stands, from y to z; default 0; matters "
+             "where planets mesh with each other"},
     {NUMBER("inertia_kgm2", 0, 1000), AT(inertia), OPTIONAL,
      .help = "default: a steel disc from bore to pitch diameter"},
     {NUMBER("mass_kg", 0, 10000), AT(mass), OPTIONAL, .help = "likewise"},

@@ -33,17 +33,51 @@ const gm_section gm_schema_synchroniser = {
     .label = offsetof(gm_synchroniser, id)};
 #undef OWNER
 
+#define OWNER gm_clutch
+static const gm_field clutch_fields[] = {
+    {.key = "shaft", .type = GM_FIELD_REFERENCE, .section = &gm_schema_shaft, AT(shaft),
+     .help = "the shaft that it locks"},
+    {.key = "on", .type = GM_FIELD_REFERENCE, .section = &gm_schema_shaft, AT(on),
+     OPTIONAL, .help = "the concentric shaft to which it locks it, or housing: a brake"},
+    {NUMBER("torque_capacity_Nm", 0, 1e6), ABOVE, AT(torque_capacity),
+     .help = "friction torque up to which it synchronises, as cone_torque_Nm of a "
+             "synchroniser"},
+    {INTEGER("friction_surfaces", 0, 100), AT(surfaces), DEFAULT("0"),
+     .help = "wetted gaps, which drag while it is open; 0: no drag, as of a dog clutch"},
+    {NUMBER("inner_radius_mm", 0, 1000), ABOVE, AT(inner_radius), OPTIONAL,
+     .help = "of the friction surfaces"},
+    {NUMBER("outer_radius_mm", 0, 1000), ABOVE, AT(outer_radius), OPTIONAL,
+     .help = "of the friction surfaces"},
+    {NUMBER("clearance_mm", 0, 50), ABOVE, AT(clearance), OPTIONAL,
+     .help = "oil film of one open gap"},
+    {NUMBER("stiffness_Nm_rad", 0, 1e10), ABOVE, AT(closed.stiffness), DEFAULT("2e5"),
+     .help = "between its two sides while it is closed"},
+    {NUMBER("damping_ratio", 0, 2), AT(closed.damping_ratio), DEFAULT("0.1"),
+     .help = "of both sides on that stiffness"},
+    END};
+const gm_section gm_schema_clutch = {
+    .title = "clutches", .word = "clutch",
+    .help = "Clutches lock two concentric shafts to each other, brakes a shaft to the "
+            "housing: shift elements of planetary gearsets, and direct drive.",
+    .fields = clutch_fields, .size = sizeof(gm_clutch), .key = GM_KEY_NAME,
+    .label = offsetof(gm_clutch, id), .collection = "clutches"};
+#undef OWNER
+
 #define OWNER gm_path_gear
 static const gm_field path_gear_fields[] = {
-    {.key = "lock", .type = GM_FIELD_REFERENCE, .section = &gm_schema_gear, AT(wheel),
-     .help = "the idling gear that is locked to its shaft"},
+    {.key = "lock", .type = GM_FIELD_LOCKS, .section = &gm_schema_gear,
+     .other = &gm_schema_clutch, AT(locks),
+     .count_offset = offsetof(gm_path_gear, n_locks),
+     .help = "idling gears that are locked to their shafts, clutches and brakes that are "
+             "closed; an empty list [] where meshes alone connect the path"},
     {NUMBER("ratio", -1000, 1000), AT(ratio), OPTIONAL,
      .help = "input speed over output speed, negative if they turn in opposite "
              "directions; must be what the gears make within 0.001 of it"},
     END};
 static const gm_section path_gear_section = {
     .title = "gears", .word = "gear",
-    .help = "Gears of a path by number: -1 reverse, 1 and up forward.",
+    .help = "Gears of a path by number: -1 reverse, 1 and up forward. Number 0 says what "
+            "stays locked in neutral; without it nothing does.",
     .fields = path_gear_fields, .size = sizeof(gm_path_gear), .key = GM_KEY_INTEGER,
     .label = offsetof(gm_path_gear, number), .line = offsetof(gm_path_gear, line),
     .low = -1, .high = 30};

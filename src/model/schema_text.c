@@ -93,6 +93,10 @@ void gm_schema_expectation(const gm_field *field, char *text, size_t size)
     case GM_FIELD_REFERENCES:
         add_references(field, text, size);
         break;
+    case GM_FIELD_LOCKS:
+        add(text, size, "the name of a %s or a %s, or a list of such names",
+            field->section->word, field->other->word);
+        break;
     case GM_FIELD_GROUP:
     case GM_FIELD_INLINE:
         add(text, size, "a group of fields");

@@ -93,3 +93,12 @@ gm_contact_law gm_mesh_contact_law(const gm_gearset *gearset, int mesh, double m
     return gm_flanks_law(flanks, stiffness * element->contacts,
                          backlash / cos(element->pair.beta_b), mass);
 }
+
+gm_contact_law gm_lock_contact_law(const gm_gearset *gearset, const gm_lock *lock,
+                                   double mass)
+{
+    const gm_description *d = gearset->description;
+    const gm_flanks *flanks = lock->is_clutch ? &d->clutches[lock->index].closed
+                                              : &gm_synchroniser_of(d, lock->index)->dogs;
+    return gm_flanks_law(flanks, flanks->stiffness, flanks->backlash, mass);
+}

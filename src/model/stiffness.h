@@ -38,4 +38,9 @@ gm_contact_law gm_flanks_law(const gm_flanks *flanks, double stiffness, double l
 /** Contact law of a mesh, all its parallel contacts together; mass as above. */
 gm_contact_law gm_mesh_contact_law(const gm_gearset *gearset, int mesh, double mass);
 
+/** Contact law of a closed lock; mass: reduced mass of its row. The dogs of a
+ *  synchroniser, or the splines of a clutch. An idling gear must have a synchroniser. */
+gm_contact_law gm_lock_contact_law(const gm_gearset *gearset, const gm_lock *lock,
+                                   double mass);
+
 #endif

@@ -65,7 +65,9 @@ static void make_parts(reducer *r)
     r->bearings[1] = bearing("input_b", 0, 0.160, 0);
     r->bearings[2] = bearing("output_a", 1, 0.0, 1);
     r->bearings[3] = bearing("output_b", 1, 0.160, 0);
-    r->gear = (gm_path_gear){.number = 1, .wheel = 1, .ratio = -49.0 / 32.0};
+    r->lock = (gm_lock){.index = 1};
+    r->gear = (gm_path_gear){
+        .number = 1, .n_locks = 1, .locks = &r->lock, .ratio = -49.0 / 32.0};
     r->locked_wheel = 1;
     r->synchroniser = (gm_synchroniser){
         .shaft = 1, .n_wheels = 1, .wheels = &r->locked_wheel, .cone_torque = 49.0};
@@ -96,8 +98,11 @@ void reducer_make(reducer *r)
                             .synchronisers = &r->synchroniser,
                             .n_paths = 1,
                             .output = 1};
-    r->d.paths[0] =
-        (gm_path_part){.id = {"input", 4}, .shaft = 0, .n_gears = 1, .gears = &r->gear};
+    r->d.paths[0] = (gm_path_part){.id = {"input", 4},
+                                   .shaft = 0,
+                                   .n_gears = 1,
+                                   .gears = &r->gear,
+                                   .has_neutral = 1};
     r->d.oil = (gm_oil_part){.viscosity_40 = 30.8e-6,
                              .viscosity_100 = 5.9e-6,
                              .density_15 = 845.0,

@@ -16,6 +16,7 @@ typedef struct reducer {
     gm_mesh meshes[1];
     gm_bearing bearings[4];
     gm_path_gear gear;
+    gm_lock lock;
     gm_synchroniser synchroniser;
     int locked_wheel;
 } reducer;

@@ -249,9 +249,13 @@ static const gm_test_rule rules[] = {
      "path 'odd': gear 7: only an idling gear can be locked; found the fixed gear "
      "'g7_drive'",
      GM_ERR_MODEL, NULL},
-    {"7: {lock: g7_driven, ratio: 2.5653}", "0: {lock: g7_driven}", "0: {lock",
-     "path 'odd': gear 0: 0 is neutral, which locks nothing; found the lock 'g7_driven'",
+    {"7: {lock: g7_driven, ratio: 2.5653}", "0: {lock: g7_driven}", "  odd:\n",
+     "path 'odd': its shaft 'input_odd' is connected with the output by what is locked "
+     "in neutral; neutral would not be neutral",
      GM_ERR_MODEL, NULL},
+    {"7: {lock: g7_driven, ratio: 2.5653}", "0: {lock: g7_driven, ratio: 2}", "0: {lock",
+     "path 'odd': gear 0: neutral has no ratio; found one for 'g7_driven'", GM_ERR_MODEL,
+     NULL},
     {"7: {lock: g7_driven, ratio: 2.5653}", "7: {lock: g7_driven, ratio: 0}", "7: {lock",
      "path 'odd': gear 7: ratio must not be 0; found 0 for 'g7_driven'", GM_ERR_MODEL,
      NULL},

@@ -66,12 +66,15 @@ static double deflection_of(const gm_contact_law *law, double F)
     return s * high;
 }
 
+/* Of a gear that locks one idling gear. */
 static int lock_of(const gm_motion *motion, const gm_path_part *path, int number)
 {
-    for (int i = 0; i < path->n_gears; i++)
-        if (path->gears[i].number == number)
-            return gm_motion_lock_of(motion, path->gears[i].wheel);
-    fail_msg("no gear %d", number);
+    const gm_path_gear *gear = gm_path_gear_of(path, number);
+    assert_non_null(gear);
+    for (int i = 0; i < motion->n_locks; i++)
+        if (motion->locks[i].what.index == gear->locks[0].index)
+            return i;
+    fail_msg("no lock of gear %d", number);
     return -1;
 }
 
