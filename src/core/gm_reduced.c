@@ -222,6 +222,17 @@ static void path_outputs(const gm_drive *d, const gm_solution *s, int p,
     o->kinetic_energy += d->inertia[p] * d->w[p] * d->w[p] / 2;
 }
 
+static int outputs_are_finite(const gm_reduced_outputs *o)
+{
+    int finite = gm_is_finite(o->a_o) && gm_is_finite(o->output_loss_torque) &&
+                 gm_is_finite(o->kinetic_energy) && gm_is_finite(o->loss_power);
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        finite = finite && gm_is_finite(o->a[p]) && gm_is_finite(o->transmitted[p]) &&
+                 gm_is_finite(o->path_loss_torque[p]);
+    }
+    return finite;
+}
+
 int gm_observe(const gm_drive *d, gm_solution *solution, gm_reduced_outputs *outputs)
 {
     static const gm_reduced_outputs zero = {0};
@@ -238,8 +249,7 @@ int gm_observe(const gm_drive *d, gm_solution *solution, gm_reduced_outputs *out
     for (int p = 0; p < d->n_paths; p++) {
         path_outputs(d, solution, p, &o);
     }
-    if (!gm_is_finite(o.a_o) || !gm_is_finite(o.a[0]) || !gm_is_finite(o.a[1]) ||
-        !gm_is_finite(o.kinetic_energy) || !gm_is_finite(o.loss_power)) {
+    if (!outputs_are_finite(&o)) {
         return GM_FLAG_NOT_FINITE;
     }
     *outputs = o;
