@@ -58,8 +58,8 @@ static double random_between(uint64_t *seed, double low, double high)
     return low + (high - low) * (double)(*seed >> 11) / 9007199254740992.0;
 }
 
-/* Central differences of the whole system against its Jacobian; accounts stay out: nothing
- * depends on them and their own rows are left empty. */
+/* Central differences of the whole system against its Jacobian; accounts stay out: their
+ * rows are left empty, since nothing depends on them. */
 static void check_jacobian(fixture *f, uint64_t *seed)
 {
     gm_transient_system s = gm_trip_system(f->trip);
