@@ -86,6 +86,7 @@ void gm_gear_plan_destroy(gm_gear_plan *plan)
     for (int p = 0; p < GM_MAX_INPUT_PATHS; p++)
         gm_free(plan->ramps[p]);
     gm_free(plan->ratios);
+    gm_free(plan->shifts);
     gm_free(plan);
 }
 
@@ -94,7 +95,8 @@ static int allocate(gm_gear_plan *plan, int n_wishes)
     size_t n = (size_t)n_wishes + GM_MAX_INPUT_PATHS;
     plan->commands = gm_calloc(n, sizeof *plan->commands);
     plan->ratios = gm_calloc(n, sizeof *plan->ratios);
-    int ok = plan->commands && plan->ratios;
+    plan->shifts = gm_calloc(n, sizeof *plan->shifts);
+    int ok = plan->commands && plan->ratios && plan->shifts;
     for (int p = 0; p < GM_MAX_INPUT_PATHS; p++) {
         plan->ramps[p] = gm_calloc(2 * n, sizeof *plan->ramps[p]);
         ok = ok && plan->ramps[p];
@@ -151,6 +153,7 @@ static void make_plan(gm_gear_plan *plan, const gm_vehicle *v, const gm_transmis
         command(plan, 0.0, p, p == now->path ? now->number : 0);
     plan->first_share[now->path] = 1.0;
     plan->first_ratio = now->ratio;
+    plan->first_gear = now->number;
     for (int i = 1; i < list->n; i++) {
         const gm_plan_gear *next = &t->gear[list->wish[i].gear];
         double start = fmax(free_from, list->wish[i].time);
@@ -159,6 +162,8 @@ static void make_plan(gm_gear_plan *plan, const gm_vehicle *v, const gm_transmis
         free_from = next->path != now->path
                         ? hand_over(plan, v, now, next, start, free_from)
                         : interrupt(plan, v, now, next, start);
+        plan->shifts[plan->n_shifts++] =
+            (gm_plan_shift){start, free_from, now->number, next->number, next->path};
         now = next;
     }
 }
@@ -224,6 +229,15 @@ double gm_gear_plan_share(const gm_gear_plan *plan, int p, double t)
 double gm_gear_plan_ratio(const gm_gear_plan *plan, double t)
 {
     return ramp_value(plan->n_ratios, plan->ratios, plan->first_ratio, t);
+}
+
+int gm_gear_plan_driving(const gm_gear_plan *plan, double t)
+{
+    int gear = plan->first_gear;
+    for (int i = 0; i < plan->n_shifts; i++)
+        if (t >= 0.5 * (plan->shifts[i].start + plan->shifts[i].end))
+            gear = plan->shifts[i].to;
+    return gear;
 }
 
 static double earlier(double t, double candidate, double best)

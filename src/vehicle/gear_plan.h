@@ -39,7 +39,17 @@ typedef struct gm_command {
     int path, gear;
 } gm_command;
 
+/** One change of the gear that drives. */
+typedef struct gm_plan_shift {
+    double start, end; /* s */
+    int from, to;      /* gear numbers */
+    int path;          /* of the new gear */
+} gm_plan_shift;
+
 typedef struct gm_gear_plan {
+    int first_gear; /* that drives at the start */
+    int n_shifts;
+    gm_plan_shift *shifts; /* by time */
     int n_commands;
     gm_command *commands;               /* by time; the first n_paths at 0 */
     int n_ramps[GM_MAX_INPUT_PATHS];    /* share of the clutch capacity of each path */
@@ -67,6 +77,10 @@ double gm_gear_plan_share(const gm_gear_plan *plan, int p, double t);
 
 /** Ratio w_engine / w_output that the driver reckons with at time t. */
 double gm_gear_plan_ratio(const gm_gear_plan *plan, double t);
+
+/** The gear that drives at time t; during a shift the one that is left until its middle.
+ */
+int gm_gear_plan_driving(const gm_gear_plan *plan, double t);
 
 /** The first time after t at which commands or the law of a share change; infinite after
  *  the last. */
