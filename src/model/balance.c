@@ -263,14 +263,20 @@ static double mesh_friction(const gm_balance *b, int m, double F, double *d_forc
     return f.value;
 }
 
+static gm_bearing_load bearing_load(gm_balance *b, const gm_bearing_element *e,
+                                    const double *x, int derivatives)
+{
+    double w_on = e->on == GM_HOUSING ? 0.0 : b->speed[e->on];
+    return gm_bearing_load_at(e, w_on, x, derivatives ? b->d_radial : NULL,
+                              derivatives ? b->d_axial : NULL);
+}
+
 static gm_bearing_torque bearing_torque(gm_balance *b, int i, const double *x,
                                         int derivatives)
 {
     const gm_bearing_element *e = &b->gearset->bearings[i];
-    double radial, axial;
-    gm_bearing_loads(e, b->speed, x, &radial, &axial, derivatives ? b->d_radial : NULL,
-                     derivatives ? b->d_axial : NULL);
-    return gm_bearing_friction(&e->law, &b->bearing_speed[i], radial, axial);
+    gm_bearing_load load = bearing_load(b, e, x, derivatives);
+    return gm_bearing_friction(&e->law, &b->bearing_speed[i], load.radial, load.axial);
 }
 
 /* Torques of load-dependent friction on the bodies, added to torque[n]. */
@@ -430,10 +436,13 @@ void gm_balance_losses(gm_balance *balance, const double *x, gm_element_loss *lo
     for (int i = 0; i < g->n_bearings; i++) {
         const gm_bearing_element *e = &g->bearings[i];
         double w = balance->bearing[i].speed;
-        losses[i] = (gm_element_loss){.kind = e->kind, .name = e->name, .speed = w};
+        gm_bearing_load load = bearing_load(balance, e, x, 0);
+        losses[i] = (gm_element_loss){.kind = e->kind,
+                                      .name = e->name,
+                                      .speed = w,
+                                      .radial = load.radial,
+                                      .axial = load.axial};
         losses[i].power = e->count * w * bearing_torque(balance, i, x, 0).value;
-        gm_bearing_loads(e, balance->speed, x, &losses[i].radial, &losses[i].axial, NULL,
-                         NULL);
     }
     losses += g->n_bearings;
     for (int i = 0; i < g->n_drags; i++)

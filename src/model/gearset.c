@@ -203,14 +203,22 @@ static gm_status make_bearings(gm_gearset *gearset, gm_error *error)
     return status;
 }
 
-void gm_bearing_loads(const gm_bearing_element *bearing, const double *w, const double *F,
-                      double *radial, double *axial, double *d_radial, double *d_axial)
+gm_bearing_load gm_bearing_load_at(const gm_bearing_element *bearing, double w_on,
+                                   const double *F, double *d_radial, double *d_axial)
 {
-    gm_load_row load = bearing->load;
-    double w_on = bearing->on == GM_HOUSING ? 0.0 : w[bearing->on];
+    const double *c = bearing->centrifugal;
+    gm_load_row row = bearing->load;
+    gm_bearing_load load = {0.0, 0.0, 0.0};
+    double v[3];
     for (int i = 0; i < 3; i++)
-        load.weight[i] += bearing->centrifugal[i] * w_on * w_on;
-    gm_load_row_at(&load, F, radial, axial, d_radial, d_axial);
+        row.weight[i] += c[i] * w_on * w_on;
+    gm_load_row_at(&row, F, &load.radial, &load.axial, d_radial, d_axial);
+    if (c[1] == 0.0 && c[2] == 0.0)
+        return load;
+    gm_load_row_vector(&row, F, v);
+    if (load.radial > 0.0)
+        load.d_radial_on = 2.0 * w_on * (c[1] * v[1] + c[2] * v[2]) / load.radial;
+    return load;
 }
 
 /* ---- drags of speed alone ---- */

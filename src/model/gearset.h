@@ -52,10 +52,16 @@ typedef struct gm_bearing_element {
                               N s2/rad2, in the directions of load */
 } gm_bearing_element;
 
-/** Loads of one bearing at row forces F and body speeds w [rad/s], and their derivatives
- *  as gm_load_row_at. */
-void gm_bearing_loads(const gm_bearing_element *bearing, const double *w, const double *F,
-                      double *radial, double *axial, double *d_radial, double *d_axial);
+/** Loads of one bearing. */
+typedef struct gm_bearing_load {
+    double radial, axial; /* N */
+    double d_radial_on;   /* by the speed of what it sits on, N.s/rad */
+} gm_bearing_load;
+
+/** Loads at row forces F with its `on` turning at w_on [rad/s], and their derivatives by
+ *  F as gm_load_row_at. */
+gm_bearing_load gm_bearing_load_at(const gm_bearing_element *bearing, double w_on,
+                                   const double *F, double *d_radial, double *d_axial);
 
 /** A drag of speed alone between two bodies. */
 typedef enum gm_drag_law {

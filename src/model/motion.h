@@ -39,6 +39,12 @@ typedef struct gm_motion_pair {
     int node, on;
 } gm_motion_pair;
 
+/** Speed of what the pair's node rubs against. */
+static inline double gm_motion_speed_on(const gm_motion_pair *pair, const double *w)
+{
+    return pair->on < 0 ? 0.0 : w[pair->on];
+}
+
 /** Friction at the present state: acts against `speed` with `torque`. Meshes: force
  *  along the line of action, against the rolling speed. */
 typedef struct gm_motion_friction {

@@ -24,7 +24,7 @@ static smooth_sign sign_of(double v, double width)
 
 static double relative(const gm_motion_pair *pair, const double *w)
 {
-    return w[pair->node] - (pair->on < 0 ? 0.0 : w[pair->on]);
+    return w[pair->node] - gm_motion_speed_on(pair, w);
 }
 
 /* d/dv of M(|v|) s(v). */
@@ -54,13 +54,16 @@ static gm_motion_friction bearing_at(gm_motion *m, int i, const double *w)
     smooth_sign s = sign_of(f.speed, GM_COULOMB_SPEED);
     if (fabs(f.speed) != m->bearing_speed[i].w)
         m->bearing_speed[i] = gm_bearing_at_speed(&e->law, fabs(f.speed));
-    gm_load_row_at(&e->load, m->force, &f.radial, &f.axial, NULL, NULL);
+    gm_bearing_load load = gm_bearing_load_at(e, gm_motion_speed_on(&m->bearing[i], w),
+                                              m->force, NULL, NULL);
     gm_bearing_torque M =
-        gm_bearing_friction(&e->law, &m->bearing_speed[i], f.radial, f.axial);
-    f.torque = s.value * M.value;
-    f.d_speed = slope_of(M.value, M.d_speed, f.speed, s);
-    f.d_radial = s.value * M.d_radial;
-    f.d_axial = s.value * M.d_axial;
+        gm_bearing_friction(&e->law, &m->bearing_speed[i], load.radial, load.axial);
+    f.radial = load.radial;
+    f.axial = load.axial;
+    f.torque = e->count * s.value * M.value;
+    f.d_speed = e->count * slope_of(M.value, M.d_speed, f.speed, s);
+    f.d_radial = e->count * s.value * M.d_radial;
+    f.d_axial = e->count * s.value * M.d_axial;
     return f;
 }
 

@@ -87,31 +87,35 @@ static void walk_slope(const sink *to, const gm_motion_pair *pair, double d_spee
     put_speed(to, pair->on, pair->on, -d_speed);
 }
 
-static void walk_bearings(const sink *to)
+/* Through the loads: of the row forces, and of planets on their pins. */
+static void walk_loads(const sink *to, int i, const double *w)
 {
     const gm_motion *m = to->motion;
-    for (int i = 0; i < m->gearset->n_bearings; i++) {
-        const gm_load_row *load = &m->gearset->bearings[i].load;
-        const gm_motion_friction *f = &m->bearing_friction[i];
-        double radial, axial;
-        gm_load_row_at(load, m->force, &radial, &axial, m->d_radial, m->d_axial);
-        walk_slope(to, &m->bearing[i], f->d_speed);
-        for (int k = 0; k < load->n; k++) {
-            double c = f->d_radial * m->d_radial[k] + f->d_axial * m->d_axial[k];
-            put_force(to, m->bearing[i].node, load->mesh[k], -c);
-            put_force(to, m->bearing[i].on, load->mesh[k], c);
-        }
+    const gm_bearing_element *e = &m->gearset->bearings[i];
+    const gm_motion_friction *f = &m->bearing_friction[i];
+    int node = m->bearing[i].node, on = m->bearing[i].on;
+    gm_bearing_load load = gm_bearing_load_at(e, gm_motion_speed_on(&m->bearing[i], w),
+                                              m->force, m->d_radial, m->d_axial);
+    for (int k = 0; k < e->load.n; k++) {
+        double c = f->d_radial * m->d_radial[k] + f->d_axial * m->d_axial[k];
+        put_force(to, node, e->load.mesh[k], -c);
+        put_force(to, on, e->load.mesh[k], c);
     }
+    put_speed(to, node, on, -f->d_radial * load.d_radial_on);
+    put_speed(to, on, on, f->d_radial * load.d_radial_on);
 }
 
-static void walk(const sink *to)
+static void walk(const sink *to, const double *w)
 {
     const gm_motion *m = to->motion;
     for (int i = 0; i < m->n_states; i++)
         put(to, i, i, 0.0);
     walk_rows(to);
     walk_meshes(to);
-    walk_bearings(to);
+    for (int i = 0; i < m->gearset->n_bearings; i++) {
+        walk_slope(to, &m->bearing[i], m->bearing_friction[i].d_speed);
+        walk_loads(to, i, w);
+    }
     for (int i = 0; i < m->gearset->n_drags; i++)
         walk_slope(to, &m->drag[i], m->drag_friction[i].d_speed);
 }
@@ -148,7 +152,7 @@ gm_status gm_motion_make_pattern(gm_motion *motion, gm_error *error)
     p->at = gm_calloc(n * n, sizeof *p->at);
     p->column_start = gm_calloc(n + 1, sizeof *p->column_start);
     if (mark && p->at && p->column_start) {
-        walk(&(sink){.motion = motion, .mark = mark});
+        walk(&(sink){.motion = motion, .mark = mark}, motion->torque);
         p->n_entries = number_entries(p, mark);
         p->row = gm_calloc((size_t)p->n_entries, sizeof *p->row);
     }
@@ -180,7 +184,7 @@ int gm_motion_jacobian(gm_motion *motion, const gm_motion_input *input, const do
     gm_motion_forces(motion, x);
     gm_motion_friction_at(motion, x);
     memset(value, 0, (size_t)motion->pattern.n_entries * sizeof *value);
-    walk(&(sink){.motion = motion, .value = value});
+    walk(&(sink){.motion = motion, .value = value}, x);
     return 0;
 }
 

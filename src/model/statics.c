@@ -253,15 +253,22 @@ static double sign_of(double v)
     return v < 0.0 ? -1.0 : 1.0;
 }
 
-void gm_load_row_at(const gm_load_row *row, const double *F, double *radial,
-                    double *axial, double *d_radial, double *d_axial)
+void gm_load_row_vector(const gm_load_row *row, const double *F, double load[3])
 {
-    double v[3] = {row->weight[0], row->weight[1], row->weight[2]};
+    for (int i = 0; i < 3; i++)
+        load[i] = row->weight[i];
     for (int k = 0; k < row->n; k++) {
         double f = F[row->mesh[k]], magnitude = fabs(f);
         for (int i = 0; i < 3; i++)
-            v[i] += row->a[k][i] * f + row->b[k][i] * magnitude;
+            load[i] += row->a[k][i] * f + row->b[k][i] * magnitude;
     }
+}
+
+void gm_load_row_at(const gm_load_row *row, const double *F, double *radial,
+                    double *axial, double *d_radial, double *d_axial)
+{
+    double v[3];
+    gm_load_row_vector(row, F, v);
     *radial = sqrt(v[1] * v[1] + v[2] * v[2]);
     *axial = fabs(v[0]);
     if (!d_radial || !d_axial)

@@ -31,6 +31,9 @@ typedef struct gm_load_row {
 
 void gm_load_row_clear(gm_load_row *row);
 
+/** The load as a vector, x y z [N]. */
+void gm_load_row_vector(const gm_load_row *row, const double *F, double load[3]);
+
 /** Radial and axial magnitude under mesh forces F, and their derivatives by the n forces
  *  of the row. d_radial and d_axial may be NULL. */
 void gm_load_row_at(const gm_load_row *row, const double *F, double *radial,
