@@ -272,6 +272,14 @@ class Variation:
                  "61908": (40, 62, 12, 10000), "6307": (35, 80, 21, 19000),
                  "6308": (40, 90, 23, 24000)}
 
+    # other friction than the default, with numbers of small gearbox bearings
+    FRICTIONS = ({"friction": "skf", "supply": "grease"},
+                 {"friction": "coulomb", "torque_Nm": 0.02, "mu": 0.0015},
+                 {"friction": "elastic", "torque_Nm": 0.05, "static_torque_Nm": 0.08,
+                  "viscous_Nms_rad": 0.0002},
+                 {"friction": "hydrodynamic", "mu": 0.001, "static_mu": 0.004,
+                  "stribeck_rpm": 60.0, "viscous_Nms_rad": 0.0003})
+
     def bearings(self):
         for b in self.data["bearings"].values():
             b.setdefault("radial_stiffness_N_um", 300.0)
@@ -291,8 +299,8 @@ class Variation:
             self.vary(b, "width_mm")
             if "static_load_N" in b:
                 self.vary(b, "static_load_N")
-            if self.rng.random() < 0.2:
-                b["friction"] = "palmgren"
+            b.update(self.rng.choice([{}, {}, {"friction": "palmgren"},
+                                      *self.FRICTIONS]))
 
     def cover(self):
         """Shafts reach as far as what sits on them."""

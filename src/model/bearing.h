@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * Rolling bearing friction: one entry for the two models, SKF (bearing_skf.c) and
- * Palmgren (bearing_palmgren.c). What depends on speed alone is computed once per speed
- * and used for every load.
+ * Bearing friction: one entry for all models, SKF (bearing_skf.c), Palmgren
+ * (bearing_palmgren.c), and those by given numbers, Coulomb, elastic and hydrodynamic
+ * (bearing_sliding.c). What depends on speed alone is computed once per speed and used
+ * for every load.
  *
- * Both are the friction of the rolling and sliding contacts; SKF adds the drag of a
- * bearing that dips into the oil (bearing_bath.c). Contact seals are parts of their own
- * (drag.h).
+ * SKF adds the contact seals of a capped bearing and the drag of one that dips into the
+ * oil (bearing_bath.c). Radial shaft seals are parts of their own (drag.h).
  */
 #ifndef BEARING_H
 #define BEARING_H
 
+#include "model/bristle.h"
 #include "model/friction.h"
 #include "model/oil.h"
 
@@ -31,6 +32,7 @@ typedef struct gm_skf {
     double rs;        /* starvation: K_rs nu (d + D) sqrt(K_Z / (2 (D - d))) */
     double bl;        /* boundary lubrication: 2.6e-8 d_m nu^1.4 */
     double mu_EHL;
+    double seals;    /* contact seals of a capped bearing, N.mm */
     double K_Z, K_L; /* geometry constants of the drag in the oil bath */
 } gm_skf;
 
@@ -46,20 +48,32 @@ typedef struct gm_palmgren {
     double axial;          /* f_2 d_m */
 } gm_palmgren;
 
-/** A bearing ready for evaluation: its data, its constants and its oil. */
+/** What the models by given numbers need (bearing_sliding.c). */
+typedef struct gm_sliding {
+    double torque, lever;                 /* while sliding: torque + lever F, N.m, m */
+    double torque_at_rest, lever_at_rest; /* at rest */
+    double stribeck;                      /* w_s, rad/s */
+    double viscous;                       /* N.m.s/rad */
+} gm_sliding;
+
+/** A bearing ready for evaluation: its data, its constants and its oil. Constants of
+ *  other models are 0. */
 typedef struct gm_bearing_law {
     gm_bearing_data data;
     double nu; /* mm2/s */
     gm_skf skf;
     gm_palmgren palmgren;
     gm_skf_bath bath; /* zero: above the oil */
+    gm_sliding sliding;
+    gm_bristle_law bristle; /* elastic */
 } gm_bearing_law;
 
 /** Factors at one speed w [rad/s]; d_ are derivatives by w. */
 typedef struct gm_bearing_speed {
     double w;                  /* >= 0 */
-    double rolling, d_rolling; /* SKF: phi_ish phi_rs (nu n)^0.6; Palmgren: M_0 [N.mm] */
-    double sliding, d_sliding; /* SKF: mu_sl */
+    double rolling, d_rolling; /* SKF: phi_ish phi_rs (nu n)^0.6; Palmgren: M_0 [N.mm];
+                                  hydrodynamic, elastic: viscous torque [N.m] */
+    double sliding, d_sliding; /* SKF: mu_sl; hydrodynamic, elastic: Stribeck share */
     double drag, d_drag;       /* SKF: in the oil bath [N.mm] */
     double F_g_rr, d_F_g_rr;   /* SKF angular contact: centrifugal load [N], rolling */
     double F_g_sl, d_F_g_sl;   /* and sliding */
@@ -83,8 +97,10 @@ void gm_bearing_immerse(gm_bearing_law *law, double H);
  *  is untouched then. */
 GM_NODISCARD gm_status gm_bearing_data_complete(gm_bearing_data *data, gm_error *error);
 
-/** Name of a type, such as "deep groove ball bearing". */
+/** Name of a type, such as "deep groove ball bearing", and of a friction model as the
+ *  file has it, such as "skf". */
 const char *gm_bearing_type_name(gm_bearing_type type);
+const char *gm_bearing_friction_name(gm_bearing_friction_model friction);
 
 /** Factors at speed w >= 0 [rad/s]; w = 0 is the one-sided limit w -> 0+. */
 gm_bearing_speed gm_bearing_at_speed(const gm_bearing_law *law, double w);
@@ -94,5 +110,20 @@ gm_bearing_speed gm_bearing_at_speed(const gm_bearing_law *law, double w);
 gm_bearing_torque gm_bearing_friction(const gm_bearing_law *law,
                                       const gm_bearing_speed *speed, double F_r,
                                       double F_a);
+
+/** An elastic bearing in motion: rate of its state z [rad] and torque against w [N.m],
+ *  signed, with their derivatives by z, w, F_r and F_a. */
+typedef struct gm_bearing_state {
+    double rate, rate_state, rate_speed, rate_radial, rate_axial;
+    double torque, torque_state, torque_speed, torque_radial, torque_axial;
+    double stored; /* J */
+    double loss;   /* torque w - d stored/dt, >= 0, W */
+} gm_bearing_state;
+
+/** For a law with GM_FRICTION_ELASTIC: at relative speed w and state z of any sign;
+ *  `speed` is that of |w|, loads >= 0 [N]. Steady sliding gives gm_bearing_friction. */
+gm_bearing_state gm_bearing_elastic(const gm_bearing_law *law,
+                                    const gm_bearing_speed *speed, double w, double z,
+                                    double F_r, double F_a);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * The two friction models behind bearing.h, and the tables they read. For bearing*.c and
+ * The friction models behind bearing.h, and the tables they read. For bearing*.c and
  * their tests only. Mixed units of the sources: N, mm, N.mm, rpm, mm2/s.
  */
 #ifndef BEARING_MODELS_H
@@ -42,6 +42,10 @@ typedef struct gm_skf_phi {
     double bl, d_bl;   /* share of boundary lubrication */
 } gm_skf_phi;
 
+/** Torque of both contact seals of a capped bearing [N.mm] by SKF, D and the seals'
+ *  diameter in mm; 0 without. NAN: SKF has no constants for that seal at this D. */
+double gm_skf_seals(gm_bearing_cap cap, double D, double diameter);
+
 gm_skf_phi gm_skf_factors(const gm_bearing_law *law, double n);
 gm_bearing_speed gm_skf_at_speed(const gm_bearing_law *law, double w);
 
@@ -62,5 +66,15 @@ gm_bearing_speed gm_palmgren_at_speed(const gm_bearing_law *law, double w);
 gm_bearing_torque gm_palmgren_friction(const gm_bearing_law *law,
                                        const gm_bearing_speed *speed, double F_r,
                                        double F_a);
+
+/** What a model by given numbers needs of *data, one sentence otherwise. */
+GM_NODISCARD gm_status gm_sliding_check(const gm_bearing_data *data, gm_error *error);
+
+/** Fill law->sliding and law->bristle; law->data is set and checked. eta [Pa.s]. */
+void gm_sliding_make(gm_bearing_law *law, double eta);
+gm_bearing_speed gm_sliding_at_speed(const gm_bearing_law *law, double w);
+gm_bearing_torque gm_sliding_friction(const gm_bearing_law *law,
+                                      const gm_bearing_speed *speed, double F_r,
+                                      double F_a);
 
 #endif

@@ -48,6 +48,7 @@ static defaults defaults_of(const gm_bearing_data *data)
     case GM_BEARING_TAPERED_ROLLER:
         return (defaults){4., 0.0004, 0., 0.};
     case GM_BEARING_CYLINDRICAL_ROLLER:
+    case GM_BEARING_PLAIN:
         break;
     }
     /* The series matters only in telling a full complement of rollers. */
@@ -101,6 +102,7 @@ static equivalent load_P_1(const gm_bearing_data *data, double F_r, double F_a)
         return at_least_radial(0., 2. * data->Y, F_r, F_a);
     case GM_BEARING_CYLINDRICAL_ROLLER:
     case GM_BEARING_NEEDLE_ROLLER:
+    case GM_BEARING_PLAIN:
         break;
     }
     return (equivalent){F_r, 1., 0.};

@@ -4,9 +4,12 @@
  * 10000, "The SKF model for calculating the frictional moment"). Mixed units: N, mm,
  * N.mm, rpm, mm2/s; d_m = (d + D)/2.
  *
- *   M       = phi_ish phi_rs G_rr (nu n)^0.6 + G_sl mu_sl + M_drag (bearing_bath.c)
+ *   M       = phi_ish phi_rs G_rr (nu n)^0.6 + G_sl mu_sl + M_seal + M_drag
  *   phi_ish = 1 / (1 + 1.84e-9 (n d_m)^1.28 nu^0.64)
  *   phi_rs  = exp(-K_rs nu n (d + D) sqrt(K_Z / (2 (D - d)))),  K_rs = 3e-8: low oil bath
+ *             or jet, 6e-8: grease or oil-air, 0: flooded
+ *   M_seal  = K_S1 d_s^beta + K_S2, seals on both sides of a capped deep groove ball
+ *             bearing; M_drag: bearing_bath.c
  *   mu_sl   = phi_bl mu_bl + (1 - phi_bl) mu_EHL
  *   phi_bl  = exp(-2.6e-8 (n nu)^1.4 d_m)
  *   mu_bl   = 0.12 for n > 0 and for the limit n -> 0+ (the 0.15 of the first start is
@@ -46,7 +49,7 @@
 
 #include <math.h>
 
-static const double K_rs = 3e-8;
+static const double K_rs[] = {3e-8, 6e-8, 0.}; /* by gm_bearing_supply */
 static const double mu_bl = 0.12;
 static const double small_load = 1.;     /* N */
 static const double small_n = 1.;        /* rpm, of the drag in the oil bath */
@@ -106,6 +109,25 @@ static void make_tapered(gm_skf *skf, const gm_skf_row *row, double d_m, double 
     skf->mu_EHL = 0.002;
 }
 
+/* Constants of the catalogue's table for deep groove ball bearings. */
+double gm_skf_seals(gm_bearing_cap cap, double D, double diameter)
+{
+    double lip = pow(diameter, 2.25);
+    switch (cap) {
+    case GM_CAP_RSL:
+        return D <= 25. ? 0. : D <= 52. ? 0.0018 * lip : (double)NAN;
+    case GM_CAP_RSH:
+        return D <= 52. ? 0.028 * lip + 2. : (double)NAN;
+    case GM_CAP_RS1:
+        if (D <= 62.)
+            return 0.023 * lip + 2.;
+        return 0.018 * lip + (D <= 80. ? 20. : D <= 100. ? 15. : 0.);
+    case GM_CAP_NONE:
+        break;
+    }
+    return 0.;
+}
+
 void gm_skf_make(gm_bearing_law *law, const gm_skf_row *row, double mu_EHL_ball)
 {
     double d = 1e3 * law->data.d, D = 1e3 * law->data.D, nu = law->nu;
@@ -113,8 +135,9 @@ void gm_skf_make(gm_bearing_law *law, const gm_skf_row *row, double mu_EHL_ball)
     gm_skf *skf = &law->skf;
     *skf = (gm_skf){.mu_EHL = mu_EHL_ball, .K_Z = row->K_Z, .K_L = row->K_L};
     skf->ish = 1.84e-9 * pow(d_m, 1.28) * pow(nu, 0.64);
-    skf->rs = K_rs * nu * (d + D) * sqrt(row->K_Z / (2. * (D - d)));
+    skf->rs = K_rs[law->data.supply] * nu * (d + D) * sqrt(row->K_Z / (2. * (D - d)));
     skf->bl = 2.6e-8 * d_m * pow(nu, 1.4);
+    skf->seals = gm_skf_seals(law->data.cap, D, 1e3 * law->data.cap_diameter);
     switch (law->data.type) {
     case GM_BEARING_DEEP_GROOVE_BALL:
         make_deep_groove_ball(law, row, d_m);
@@ -128,6 +151,8 @@ void gm_skf_make(gm_bearing_law *law, const gm_skf_row *row, double mu_EHL_ball)
         break;
     case GM_BEARING_TAPERED_ROLLER:
         make_tapered(skf, row, d_m, law->data.Y);
+        break;
+    case GM_BEARING_PLAIN:
         break;
     }
 }
@@ -248,6 +273,7 @@ gm_skf_loads gm_skf_at_loads(const gm_bearing_law *law, const gm_bearing_speed *
     case GM_BEARING_CYLINDRICAL_ROLLER:
     case GM_BEARING_NEEDLE_ROLLER:
     case GM_BEARING_TAPERED_ROLLER:
+    case GM_BEARING_PLAIN:
         break;
     }
     return roller(&law->skf, F_r, F_a);
@@ -259,7 +285,7 @@ gm_bearing_torque gm_skf_friction(const gm_bearing_law *law,
     gm_skf_loads g = gm_skf_at_loads(law, speed, F_r, F_a);
     double rr = 1e-3 * speed->rolling, sl = 1e-3 * speed->sliding; /* N.mm to N.m */
     return (gm_bearing_torque){
-        .value = rr * g.G_rr + sl * g.G_sl + 1e-3 * speed->drag,
+        .value = rr * g.G_rr + sl * g.G_sl + 1e-3 * (law->skf.seals + speed->drag),
         .d_speed = 1e-3 * (speed->d_rolling * g.G_rr + speed->d_sliding * g.G_sl) +
                    rr * g.rr_g * speed->d_F_g_rr + sl * g.sl_g * speed->d_F_g_sl +
                    1e-3 * speed->d_drag,

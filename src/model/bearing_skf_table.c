@@ -110,6 +110,7 @@ const gm_skf_row *gm_skf_rows(gm_bearing_type type, int *n)
         return tapered_roller;
     case GM_BEARING_CYLINDRICAL_ROLLER:
     case GM_BEARING_NEEDLE_ROLLER:
+    case GM_BEARING_PLAIN: /* asked by nobody */
         break;
     }
     *n = COUNT(cylindrical_roller);

@@ -48,16 +48,35 @@ typedef enum gm_bearing_type {
     GM_BEARING_ANGULAR_CONTACT_BALL,
     GM_BEARING_CYLINDRICAL_ROLLER,
     GM_BEARING_NEEDLE_ROLLER,
-    GM_BEARING_TAPERED_ROLLER
+    GM_BEARING_TAPERED_ROLLER,
+    GM_BEARING_PLAIN
 } gm_bearing_type;
 
 typedef enum gm_bearing_friction {
     GM_FRICTION_NONE, /* support only: its friction belongs to something outside */
+    GM_FRICTION_COULOMB,
+    GM_FRICTION_ELASTIC,      /* presliding, with a state in motion */
+    GM_FRICTION_HYDRODYNAMIC, /* Stribeck and viscous */
     GM_FRICTION_SKF,
     GM_FRICTION_PALMGREN
 } gm_bearing_friction_model;
 
-/** A rolling bearing's own data, as both friction models need it. */
+/** How much oil reaches the contacts of a rolling bearing (SKF). */
+typedef enum gm_bearing_supply {
+    GM_SUPPLY_BATH,   /* low oil bath or jet */
+    GM_SUPPLY_GREASE, /* grease, oil-air */
+    GM_SUPPLY_FLOODED /* no starvation */
+} gm_bearing_supply;
+
+/** Contact seals on both sides of a capped bearing (SKF). */
+typedef enum gm_bearing_cap {
+    GM_CAP_NONE,
+    GM_CAP_RSL,
+    GM_CAP_RSH,
+    GM_CAP_RS1
+} gm_bearing_cap;
+
+/** A bearing's own data, as the friction models need it. */
 typedef struct gm_bearing_data {
     gm_bearing_type type;
     gm_bearing_friction_model friction;
@@ -67,6 +86,15 @@ typedef struct gm_bearing_data {
     double C0;                      /* static load rating [N] */
     double Y;                       /* tapered: axial factor */
     double f0, f1;                  /* Palmgren; NAN: default of the type */
+    gm_bearing_supply supply;       /* SKF */
+    gm_bearing_cap cap;             /* SKF */
+    double cap_diameter;            /* where its seals slide, m */
+    double torque, static_torque;   /* Coulomb, elastic, hydrodynamic, N.m */
+    double mu, static_mu;           /* likewise, at the mean radius */
+    double stribeck;                /* elastic, hydrodynamic: w_s, rad/s */
+    double viscous;                 /* likewise, N.m.s/rad */
+    double stiffness, damping;      /* elastic: N.m/rad, N.m.s/rad */
+    double clearance;               /* hydrodynamic, plain: radial, m */
     /* NAN where not given and not known from the designation */
 } gm_bearing_data;
 

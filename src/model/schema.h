@@ -113,6 +113,6 @@ bool gm_schema_has_effect(const gm_field *field, const char *choice);
 /** What the field must be, such as "a number in mm greater than 0". */
 void gm_schema_expectation(const gm_field *field, char *text, size_t size);
 
-enum { GM_MAX_KEYS = 32 }; /* of one section */
+enum { GM_MAX_KEYS = 48 }; /* of one section */
 
 #endif

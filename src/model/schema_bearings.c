@@ -14,18 +14,34 @@ static const gm_choice bearing_types[] = {
     {"cylindrical_roller", GM_BEARING_CYLINDRICAL_ROLLER},
     {"needle_roller", GM_BEARING_NEEDLE_ROLLER},
     {"tapered_roller", GM_BEARING_TAPERED_ROLLER},
+    {"plain", GM_BEARING_PLAIN},
     {NULL, 0}};
 
 static const gm_choice bearing_frictions[] = {
     {"none", GM_FRICTION_NONE},
+    {"coulomb", GM_FRICTION_COULOMB},
+    {"elastic", GM_FRICTION_ELASTIC},
+    {"hydrodynamic", GM_FRICTION_HYDRODYNAMIC},
     {"skf", GM_FRICTION_SKF},
     {"palmgren", GM_FRICTION_PALMGREN},
     {NULL, 0}};
 
+static const gm_choice bearing_supplies[] = {{"oil_bath", GM_SUPPLY_BATH},
+                                             {"grease", GM_SUPPLY_GREASE},
+                                             {"flooded", GM_SUPPLY_FLOODED},
+                                             {NULL, 0}};
+static const gm_choice bearing_caps[] = {{"none", GM_CAP_NONE},
+                                         {"rsl", GM_CAP_RSL},
+                                         {"rsh", GM_CAP_RSH},
+                                         {"rs1", GM_CAP_RS1},
+                                         {NULL, 0}};
+
+#define GIVEN "coulomb, elastic or hydrodynamic"
+#define STRIBECK "elastic or hydrodynamic"
 #define OWNER gm_bearing_data
 static const gm_field bearing_data_fields[] = {
     {.key = "type", .type = GM_FIELD_CHOICE, .choices = bearing_types, AT(type),
-     .help = "kind of rolling bearing"},
+     .help = "kind of bearing"},
     {.key = "friction", .type = GM_FIELD_CHOICE, .choices = bearing_frictions,
      AT(friction), DEFAULT("skf"),
      .help = "friction model; none: a support whose friction belongs to another part"},
@@ -48,9 +64,44 @@ static const gm_field bearing_data_fields[] = {
      .help = "factor of the part without load; default of the type"},
     {NUMBER("f1", 0, 1), ABOVE, AT(f1), OPTIONAL, ONLY("friction", "palmgren"),
      .help = "factor of the part with load; default of the type"},
+    {.key = "supply", .type = GM_FIELD_CHOICE, .choices = bearing_supplies, AT(supply),
+     DEFAULT("oil_bath"), ONLY("friction", "skf"),
+     .help = "how oil reaches the contacts: a low oil bath or a jet; grease or oil-air; "
+             "so much that none is missing"},
+    {.key = "seals", .type = GM_FIELD_CHOICE, .choices = bearing_caps, AT(cap),
+     DEFAULT("none"), ONLY("friction", "skf"),
+     .help = "contact seals on both sides of a deep groove ball bearing, by SKF's name"},
+    {NUMBER("seal_diameter_mm", 0, 2000), ABOVE, AT(cap_diameter), OPTIONAL,
+     ONLY("seals", "rsl, rsh or rs1"),
+     .help = "where those seals slide, d1 or d2 of the catalogue; needed"},
+    {NUMBER("torque_Nm", 0, 1e5), AT(torque), OPTIONAL, ONLY("friction", GIVEN),
+     .help = "friction without load while it slides; default 0, elastic needs it"},
+    {NUMBER("mu", 0, 1), AT(mu), OPTIONAL, ONLY("friction", GIVEN),
+     .help = "coefficient of friction while it slides, at half the mean diameter, of a "
+             "plain bearing at half the bore; default 0"},
+    {NUMBER("static_torque_Nm", 0, 1e5), AT(static_torque), OPTIONAL,
+     ONLY("friction", STRIBECK),
+     .help = "torque without load that it holds at rest; default torque_Nm"},
+    {NUMBER("static_mu", 0, 1), AT(static_mu), OPTIONAL, ONLY("friction", STRIBECK),
+     .help = "coefficient of friction at rest; default mu"},
+    {NUMBER("stribeck_rpm", 0, 1e5), ABOVE, AT(stribeck), DEFAULT("0.5"),
+     ONLY("friction", STRIBECK),
+     .help = "speed over which friction falls from its value at rest"},
+    {NUMBER("viscous_Nms_rad", 0, 1e5), AT(viscous), OPTIONAL,
+     ONLY("friction", STRIBECK), .help = "torque by speed; default 0"},
+    {NUMBER("stiffness_Nm_rad", 0, 1e9), ABOVE, AT(stiffness), DEFAULT("200"),
+     ONLY("friction", "elastic"), .help = "torque by angle before it slides"},
+    {NUMBER("damping_Nms_rad", 0, 1e6), ABOVE, AT(damping), DEFAULT("1"),
+     ONLY("friction", "elastic"), .help = "torque by speed before it slides"},
+    {NUMBER("clearance_mm", 0, 50), ABOVE, AT(clearance), OPTIONAL,
+     ONLY("friction", "hydrodynamic"),
+     .help = "radial clearance of a plain bearing, whose film then adds Petroff's torque "
+             "of the oil"},
     END};
+#undef GIVEN
+#undef STRIBECK
 const gm_section gm_schema_bearing_data = {
-    .title = "bearing", .word = "bearing", .help = "Data of one rolling bearing.",
+    .title = "bearing", .word = "bearing", .help = "Data of one bearing.",
     .fields = bearing_data_fields};
 #undef OWNER
 
@@ -72,7 +123,7 @@ static const gm_field bearing_fields[] = {
     END};
 const gm_section gm_schema_bearing = {
     .title = "bearings", .word = "bearing",
-    .help = "Rolling bearings that carry the shafts. Every shaft needs two, one of them "
+    .help = "Bearings that carry the shafts. Every shaft needs two, one of them "
             "locating.",
     .fields = bearing_fields, .size = sizeof(gm_bearing), .key = GM_KEY_NAME,
     .label = offsetof(gm_bearing, id)};

@@ -109,6 +109,52 @@ static void immersion_adds_drag(void **state)
     }
 }
 
+/* Seals at d_s = 40 mm: 40^2.25 = 4023.87 (40^2 = 1600, 40^0.25 = 2.514867). */
+static void seals_of_capped_bearings(void **state)
+{
+    (void)state;
+    const double lip = 1600. * 2.514867;
+    check_close("rs1", gm_skf_seals(GM_CAP_RS1, 62., 40.), 0.023 * lip + 2., 1e-6);
+    check_close("rs1 80", gm_skf_seals(GM_CAP_RS1, 80., 40.), 0.018 * lip + 20., 1e-6);
+    check_close("rs1 90", gm_skf_seals(GM_CAP_RS1, 90., 40.), 0.018 * lip + 15., 1e-6);
+    check_close("rs1 140", gm_skf_seals(GM_CAP_RS1, 140., 40.), 0.018 * lip, 1e-6);
+    check_close("rsh", gm_skf_seals(GM_CAP_RSH, 52., 40.), 0.028 * lip + 2., 1e-6);
+    check_close("rsl", gm_skf_seals(GM_CAP_RSL, 52., 40.), 0.0018 * lip, 1e-6);
+    assert_true(gm_skf_seals(GM_CAP_RSL, 25., 20.) == 0.);
+    assert_true(gm_skf_seals(GM_CAP_NONE, 62., 40.) == 0.);
+    assert_true(isnan(gm_skf_seals(GM_CAP_RSL, 53., 40.)));
+    gm_bearing_data data = {.type = GM_BEARING_DEEP_GROOVE_BALL,
+                            .friction = GM_FRICTION_SKF,
+                            .designation = "6206",
+                            .cap = GM_CAP_RS1,
+                            .cap_diameter = 40e-3};
+    bearing_point capped = {bearing_in_oil(data, 15., 0.05), 100., 800., 100.};
+    bearing_point open = capped;
+    data.cap = GM_CAP_NONE;
+    open.law = bearing_in_oil(data, 15., 0.05);
+    gm_bearing_torque M = torque_at(&capped), M_open = torque_at(&open);
+    check_close("M", M.value - M_open.value, 1e-3 * (0.023 * lip + 2.), 1e-6);
+    assert_true(M.d_speed == M_open.d_speed && M.d_radial == M_open.d_radial);
+}
+
+/* K_rs = 6e-8 squares phi_rs of an oil bath; flooded there is none. */
+static void starvation_depends_on_the_supply(void **state)
+{
+    (void)state;
+    gm_bearing_data data = {.type = GM_BEARING_DEEP_GROOVE_BALL,
+                            .friction = GM_FRICTION_SKF,
+                            .designation = "6206"};
+    gm_bearing_law bath = bearing_in_oil(data, 15., 0.05);
+    data.supply = GM_SUPPLY_GREASE;
+    gm_bearing_law grease = bearing_in_oil(data, 15., 0.05);
+    data.supply = GM_SUPPLY_FLOODED;
+    gm_bearing_law flooded = bearing_in_oil(data, 15., 0.05);
+    double phi = gm_skf_factors(&bath, 3000.).rs;
+    check_close("bath", phi, 0.9730356, 1e-6);
+    check_close("grease", gm_skf_factors(&grease, 3000.).rs, phi * phi, 1e-12);
+    assert_true(gm_skf_factors(&flooded, 3000.).rs == 1.);
+}
+
 /* SKF's quick estimate 0.5 mu P d, mu = 0.0015 for deep groove ball bearings at P = 0.1 C
  * and good lubrication: an order of magnitude, here within a quarter. */
 static void agrees_with_the_quick_estimate(void **state)
@@ -243,6 +289,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(drag_in_the_oil_bath),
         cmocka_unit_test(immersion_adds_drag),
+        cmocka_unit_test(seals_of_capped_bearings),
+        cmocka_unit_test(starvation_depends_on_the_supply),
         cmocka_unit_test(ball_bearing_6206),
         cmocka_unit_test(agrees_with_the_quick_estimate),
         cmocka_unit_test(tapered_bearing_30206),

@@ -60,6 +60,30 @@ static const gm_test_rule rules[] = {
      "gear 'g1_driven', bearing: axial_factor has an effect only with type "
      "tapered_roller, found type needle_roller",
      GM_ERR_FORMAT, NULL},
+    {REAR,
+     "type: deep_groove_ball, designation: \"6306\", friction: coulomb, mu: 0.001, "
+     "static_mu: 0.002}",
+     "static_mu",
+     "bearing 'input_odd_rear': static_mu has an effect only with friction elastic or "
+     "hydrodynamic, found friction coulomb",
+     GM_ERR_FORMAT, NULL},
+    {REAR, "type: deep_groove_ball, designation: \"6306\", seal_diameter_mm: 40}",
+     "seal_diameter",
+     "bearing 'input_odd_rear': seal_diameter_mm has an effect only with seals rsl, rsh "
+     "or rs1, found seals none",
+     GM_ERR_FORMAT, NULL},
+    {REAR, "type: deep_groove_ball, designation: \"6306\", seals: rs1}", "input_odd_rear",
+     "bearing 'input_odd_rear': seals need their seal_diameter_mm", GM_ERR_MODEL, NULL},
+    {REAR,
+     "type: deep_groove_ball, designation: \"6306\", seals: rsh, seal_diameter_mm: 40}",
+     "input_odd_rear",
+     "bearing 'input_odd_rear': seals rsl and rsh are known up to an outer_mm of 52; "
+     "found 72",
+     GM_ERR_MODEL, NULL},
+    {REAR, "type: plain, bore_mm: 30, outer_mm: 72}", "input_odd_rear",
+     "bearing 'input_odd_rear': a plain bearing has friction none, coulomb, elastic or "
+     "hydrodynamic; found skf",
+     GM_ERR_MODEL, NULL},
     /* series that nothing looks up */
     {REAR, "type: deep_groove_ball, designation: \"6306\", series: \"63\"}",
      "input_odd_rear",

@@ -79,8 +79,8 @@ static const gm_test_rule rules[] = {
      "bearing: {type: needle_roler, bore_mm: 36, outer_mm: 42, width_mm: 18}",
      "needle_roler",
      "gear 'g1_driven', bearing: type must be deep_groove_ball, angular_contact_ball, "
-     "cylindrical_roller, needle_roller or tapered_roller, found 'needle_roler'; did you "
-     "mean 'needle_roller'?",
+     "cylindrical_roller, needle_roller, tapered_roller or plain, found 'needle_roler'; "
+     "did you mean 'needle_roller'?",
      GM_ERR_FORMAT, NULL},
     {"name: 75W transmission oil", "name: \"75W\\ttransmission oil\"", "name: \"75W",
      "oil: name must be one line of 1 to 47 bytes, found \"75W transmission oil\"",
