@@ -61,16 +61,16 @@ static void print_option(const gm_option *o, FILE *out)
     char left[80], help[512];
     bool named = o->kind != GM_OPTION_OPERAND;
     const char *value = o->value ? o->value : "";
+    const char *unit = o->unit ? o->unit : "";
     if (!named)
         (void)snprintf(left, sizeof left, "  %s", o->name);
     else if (o->letter)
         (void)snprintf(left, sizeof left, "  -%c, --%s %s", o->letter, o->name, value);
     else
         (void)snprintf(left, sizeof left, "      --%s %s", o->name, value);
-    (void)snprintf(help, sizeof help, "%s%s%s%s%s%s%s", o->help, o->unit ? " [" : "",
-                   o->unit ? o->unit : "", o->unit ? "]" : "",
-                   o->fallback ? " (default " : "", o->fallback ? o->fallback : "",
-                   o->fallback ? ")" : "");
+    (void)snprintf(help, sizeof help, "%s%s%s%s%s%s%s", o->help, *unit ? " [" : "", unit,
+                   *unit ? "]" : "", o->fallback ? " (default " : "",
+                   o->fallback ? o->fallback : "", o->fallback ? ")" : "");
     int width = (int)strlen(left);
     fputs(left, out);
     if (width > OPTION_COLUMN - 2) {

@@ -26,7 +26,8 @@ static const unit units[] = {
     {"rpm", "rad/s", 1.0, 0.0},    {"Nm", "Nm", 1.0, 0.0},
     {"Nm", "N.m", 1.0, 0.0},       {"Nm", "N·m", 1.0, 0.0},
     {"degC", "degC", 1.0, 273.15}, {"degC", "°C", 1.0, 273.15},
-    {"degC", "K", 1.0, 0.0},
+    {"degC", "K", 1.0, 0.0},       {"s", "s", 1.0, 0.0},
+    {"s", "ms", 1e-3, 0.0},        {"", "", 1.0, 0.0},
 };
 enum { N_UNITS = sizeof units / sizeof units[0] };
 
@@ -94,6 +95,9 @@ static gm_status read_quantity(const parser *p, const gm_option *o, const char *
 {
     const unit *u = unit_of_kind(o->unit);
     double value;
+    if (u && *o->unit == '\0' && !to_si(o->unit, text, &value))
+        return gm_fail(p->error, GM_ERR_ARGUMENT, "--%s needs a number, not '%s'",
+                       o->name, text);
     if (!u || !to_si(o->unit, text, &value))
         return gm_fail(p->error, GM_ERR_ARGUMENT,
                        "--%s needs a number in %s (such as %g%s), not '%s'", o->name,

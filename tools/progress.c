@@ -53,31 +53,32 @@ bool gm_progress_interrupted(void)
     return stop_requested != 0;
 }
 
-/* Resumed points took no time: rate and time left come from the others. */
-static void draw(const gm_sweep_progress *state)
+void gm_progress_show(gm_progress *progress, double part, const char *words)
 {
-    double part = (double)state->points_done / (double)state->points_total;
-    long solved = state->points_done - state->points_resumed;
-    double rate = state->elapsed > 0.0 ? (double)solved / state->elapsed : 0.0;
-    char bar[BAR + 1], left[32] = "";
+    char bar[BAR + 1];
+    if (!isatty(STDERR_FILENO) || !(part >= 0.0 && part <= 1.0))
+        return;
     memset(bar, '.', BAR);
     memset(bar, '#', (size_t)(part * BAR));
     bar[BAR] = '\0';
-    if (rate > 0.0)
-        (void)snprintf(left, sizeof left, ", %.0f s left",
-                       (double)(state->points_total - state->points_done) / rate);
-    fprintf(stderr, "\r[%s] %3.0f %%  %ld of %ld points, %.0f/s%s  ", bar, 100.0 * part,
-            state->points_done, state->points_total, rate, left);
+    fprintf(stderr, "\r[%s] %3.0f %%  %s  ", bar, 100.0 * part, words);
     fflush(stderr);
+    progress->shown = true;
 }
 
+/* Resumed points took no time: rate and time left come from the others. */
 int gm_progress_report(void *user, const gm_sweep_progress *state)
 {
-    gm_progress *progress = user;
-    if (state->points_total > 0 && state->points_done <= state->points_total &&
-        isatty(STDERR_FILENO)) {
-        draw(state);
-        progress->shown = true;
-    }
+    long solved = state->points_done - state->points_resumed;
+    double rate = state->elapsed > 0.0 ? (double)solved / state->elapsed : 0.0;
+    double left = (double)(state->points_total - state->points_done);
+    char words[96], rest[32] = "";
+    if (rate > 0.0)
+        (void)snprintf(rest, sizeof rest, ", %.0f s left", left / rate);
+    (void)snprintf(words, sizeof words, "%ld of %ld points, %.0f/s%s", state->points_done,
+                   state->points_total, rate, rest);
+    if (state->points_total > 0)
+        gm_progress_show(user, (double)state->points_done / (double)state->points_total,
+                         words);
     return stop_requested != 0;
 }

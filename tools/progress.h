@@ -19,6 +19,9 @@ typedef struct gm_progress {
 /** From here to gm_progress_end signals stop the stage instead of the program. */
 void gm_progress_begin(gm_progress *progress);
 
+/** Draw a bar for the part that is done, 0 to 1, and words. */
+void gm_progress_show(gm_progress *progress, double part, const char *words);
+
 /** A gm_sweep_report; user is the gm_progress. */
 int gm_progress_report(void *user, const gm_sweep_progress *state);
 

@@ -183,8 +183,8 @@ static void powers(void *user, double t, const double *x, gm_transient_powers *p
     gm_motion_view view = {.loss_power = (double)NAN};
     if (find_input(d, t, x) == 0)
         d->is->view(d->motion, &d->input, x, &view);
-    *powers =
-        (gm_transient_powers){.loss = view.loss_power, .stored = view.stored_energy};
+    *powers = (gm_transient_powers){
+        .loss = view.loss_power, .stored = view.stored_energy, .lost = view.jump_loss};
     for (int f = 0; f < d->n_flanges; f++) {
         double power = d->input.torque[f] * view.speed[f];
         powers->in += power;

@@ -49,10 +49,9 @@ void gm_energy_step(gm_energy *energy, double t, const gm_transient_powers *now)
 
 void gm_energy_jump(gm_energy *energy, double work, const gm_transient_powers *after)
 {
-    double lost = energy->sum.stored + work - after->stored;
     energy->sum.work += work;
     energy->sum.through += fabs(work);
-    energy->sum.impulses += fmax(lost, 0.0);
+    energy->sum.impulses += after->lost - energy->power[1].lost;
     energy->sum.stored = after->stored;
     energy->power[1] = *after;
     energy->known = 1;

@@ -22,9 +22,7 @@ void gm_energy_start(gm_energy *energy, double t, const gm_transient_powers *now
 /** A step has ended at t. */
 void gm_energy_step(gm_energy *energy, double t, const gm_transient_powers *now);
 
-/** At the present time x has jumped or the powers have: work [J] was put in, what is
- *  missing of the stored energy is dissipated. Energy that would come from nowhere counts
- *  as nothing; it then stands in the residual. */
+/** At the present time x has jumped or the powers have: work [J] was put in. */
 void gm_energy_jump(gm_energy *energy, double work, const gm_transient_powers *after);
 
 /** The powers have a kink at the present time. */

@@ -33,6 +33,7 @@ typedef struct gm_transient_powers {
         through;   /* W >= 0, how much passes: half the sum of |power| over the flanges */
     double loss;   /* W >= 0 */
     double stored; /* J */
+    double lost;   /* J >= 0, given up in jumps of x since the start */
 } gm_transient_powers;
 
 /** A system. Calls that return int: 0 done, > 0 this x cannot be evaluated (the solver

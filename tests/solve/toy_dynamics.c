@@ -12,7 +12,8 @@
 
 typedef struct toy_motion {
     const toy *t;
-    int mode; /* stick: -1, 0, 1 direction of sliding; clutch: 1 joined */
+    int mode;         /* stick: -1, 0, 1 direction of sliding; clutch: 1 joined */
+    double jump_loss; /* J */
 } toy_motion;
 
 static gm_status create(const void *plant, void **motion, gm_error *error)
@@ -193,8 +194,10 @@ static gm_status handle(void *motion, const gm_motion_input *input, double t, do
     (void)t, (void)error;
     *changed = m->t->kind == TOY_RESTLESS;
     if (m->t->kind == TOY_BALL && x[0] <= 1e-9 && x[1] < 0.0) {
+        double kept = m->t->restitution;
+        m->jump_loss += 0.5 * m->t->inertia[0] * x[1] * x[1] * (1.0 - kept * kept);
         x[0] = 0.0;
-        x[1] *= -m->t->restitution;
+        x[1] *= -kept;
         *changed = 1;
     }
     if (m->t->kind == TOY_STICK)
@@ -203,6 +206,9 @@ static gm_status handle(void *motion, const gm_motion_input *input, double t, do
         m->mode = input->gear[0] == 1;
         *changed = 1;
         const double *J = m->t->inertia;
+        if (m->mode)
+            m->jump_loss +=
+                0.5 * J[0] * J[1] / (J[0] + J[1]) * (x[1] - x[2]) * (x[1] - x[2]);
         if (m->mode)
             x[1] = x[2] = (J[0] * x[1] + J[1] * x[2]) / (J[0] + J[1]);
     }
@@ -222,6 +228,7 @@ static void view(void *motion, const gm_motion_input *input, const double *x,
     }
     v->loss_power = t->drag * x[1] * x[1] + friction(m) * x[1] +
                     (t->kind == TOY_OSCILLATOR ? t->damping * slip * slip : 0.0);
+    v->jump_loss = m->jump_loss;
     v->stored_energy = 0.5 * t->inertia[0] * x[1] * x[1] +
                        0.5 * t->inertia[1] * x[2] * x[2] + t->gravity * x[0] +
                        (t->kind == TOY_OSCILLATOR ? 0.5 * t->stiffness * x[0] * x[0] : 0);
