@@ -219,7 +219,7 @@ static gm_status run_schedule(const arguments *a, const gm_gearset_file *file,
 
 /* ---- what is asked for ---- */
 
-/* The oil of the schedule, which an option may repeat but not contradict. NAN: neither. */
+/* The oil of the schedule, which an option may repeat but not contradict. NAN: none. */
 static gm_status choose_oil(const arguments *a, const gm_schedule *schedule, double *oil,
                             gm_error *error)
 {

@@ -119,6 +119,7 @@ static void powers(void *user, double t, const double *x, gm_transient_powers *p
     powers->loss = dx[GM_CAR_CLUTCH_LOSS] + dx[GM_CAR_DAMPER_LOSS] +
                    dx[GM_CAR_ROAD_LOSS] + dx[GM_CAR_BRAKE_LOSS] + view.loss_power;
     powers->stored = gm_car_stored(trip->parts.vehicle, x) + view.stored_energy;
+    powers->lost = view.jump_loss;
 }
 
 void gm_trip_look(gm_trip *trip, double t, const double *x, gm_trip_view *view)
