@@ -48,8 +48,8 @@ GM_NODISCARD gm_status gm_schedule_read(const char *path, const gm_plant_info *i
 void gm_schedule_destroy(gm_schedule *schedule);
 
 /** Speeds of all flanges at the start, speed[n_flanges] [rad/s]: as given; where a gear
- *  is engaged, from the other side of it; else zero. GM_ERR_MODEL when given speeds do not
- *  fit the gears of the first row, and errors of the plant's kinematics. */
+ *  is engaged, from the other side of it; else zero. GM_ERR_MODEL when given speeds do
+ *  not fit the gears of the first row, and errors of the plant's kinematics. */
 GM_NODISCARD gm_status gm_schedule_start_speeds(const gm_schedule *schedule,
                                                 const gm_plant *plant, double *speed,
                                                 gm_error *error);
