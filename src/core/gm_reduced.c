@@ -9,7 +9,9 @@
 
 #include <stddef.h>
 
-enum { GM_SUBSTEPS = 12 }; /* events in one step; those beyond are treated at its end */
+/* Sub-steps in one step: 12 events, those beyond are treated at the end of the step, and
+ * the parts that a vibration asks for. */
+enum { GM_SUBSTEPS = 12 + GM_PARTS };
 
 /* ---- lookups ---- */
 
@@ -66,7 +68,8 @@ int gm_motion_is_finite(const gm_reduced_map *map, const gm_motion *s)
     gm_real sum = (s->phi_o - s->phi_o) + (s->w_o - s->w_o) + (s->brake - s->brake) +
                   (s->work - s->work) + (s->loss_energy - s->loss_energy);
     for (int p = 0; p < map->n_paths; p++) {
-        sum += (s->path[p].phi - s->path[p].phi) + (s->path[p].w - s->path[p].w);
+        sum += (s->path[p].phi - s->path[p].phi) + (s->path[p].w - s->path[p].w) +
+               (s->path[p].twist - s->path[p].twist);
     }
     return sum == 0;
 }
@@ -97,7 +100,26 @@ void gm_store_motion(const gm_motion *s, gm_reduced_state *state)
 
 /* ---- gears ---- */
 
-int gm_command_gear(const gm_reduced_map *map, int p, int number, gm_motion *s)
+static int refusal(int p)
+{
+    return p == 0 ? GM_FLAG_GEAR_REFUSED_0 : GM_FLAG_GEAR_REFUSED_1;
+}
+
+/* What an elastic path stores is lost when its gear leaves. */
+static void release(const gm_reduced_map *map, const gm_reduced_params *params, int p,
+                    gm_motion *s)
+{
+    gm_path_state *path = &s->path[p];
+    if (path->mode == GM_PATH_ENGAGED) {
+        const gm_gear *gear = gm_motion_gear(map, s, p);
+        s->loss_energy +=
+            gm_is_elastic(params, gear) ? gm_spring_energy(gear, path->twist) : 0;
+        path->twist = 0;
+    }
+}
+
+int gm_command_gear(const gm_reduced_map *map, const gm_reduced_params *params, int p,
+                    int number, gm_motion *s)
 {
     gm_path_state *path = &s->path[p];
     if (path->mode != GM_PATH_NEUTRAL &&
@@ -106,8 +128,9 @@ int gm_command_gear(const gm_reduced_map *map, int p, int number, gm_motion *s)
     }
     const int gear = gm_reduced_find_gear(map, p, number);
     if (gear == -2) {
-        return p == 0 ? GM_FLAG_GEAR_REFUSED_0 : GM_FLAG_GEAR_REFUSED_1;
+        return refusal(p);
     }
+    release(map, params, p, s);
     path->gear = gear;
     path->mode = gear < 0 ? GM_PATH_NEUTRAL : GM_PATH_SYNCHRONISING;
     return 0;
@@ -121,7 +144,7 @@ static void lock_synchronised(const gm_reduced_map *map, const gm_reduced_params
         if (s->path[p].mode == GM_PATH_SYNCHRONISING &&
             (params->sync_torque[p] >= GM_SYNC_AT_ONCE ||
              s->path[p].w == gm_motion_gear(map, s, p)->ratio * s->w_o)) {
-            gm_engage(map, p, s);
+            gm_engage(map, params, p, s);
         }
     }
 }
@@ -137,11 +160,14 @@ int gm_reduced_start(const gm_reduced_map *map, const gm_reduced_inputs *inputs,
     s.w_o = w_o;
     for (int p = 0; p < map->n_paths; p++) {
         gm_path_state *path = &s.path[p];
+        const int gear = gm_reduced_find_gear(map, p, inputs->gear[p]);
         path->w = w[p];
-        flags |= gm_command_gear(map, p, inputs->gear[p], &s);
-        if (path->gear >= 0) {
+        if (gear == -2) {
+            flags |= refusal(p);
+        } else if (gear >= 0) {
+            path->gear = gear;
             path->mode = GM_PATH_ENGAGED;
-            path->w = gm_motion_gear(map, &s, p)->ratio * w_o;
+            path->w = map->path[p].gears[gear].ratio * w_o;
         }
     }
     if (!gm_inputs_are_finite(map, inputs) || !gm_motion_is_finite(map, &s)) {
@@ -162,10 +188,10 @@ int gm_reduced_step(const gm_reduced_map *map, const gm_reduced_params *params,
     gm_real rest = h;
     int flags = 0, outside = 0;
     for (int p = 0; p < map->n_paths; p++) {
-        flags |= gm_command_gear(map, p, inputs->gear[p], &s);
+        flags |= gm_command_gear(map, params, p, inputs->gear[p], &s);
     }
     for (int i = 0; i < GM_SUBSTEPS && rest > 0; i++) {
-        const gm_span span = {h - rest, rest, i == GM_SUBSTEPS - 1};
+        const gm_span span = {h - rest, rest, h, i == GM_SUBSTEPS - 1};
         lock_synchronised(map, params, &s);
         rest -= gm_substep(map, params, inputs, &span, &state->cache, &s, &outside);
     }
@@ -208,6 +234,16 @@ static void path_outputs(const gm_drive *d, const gm_solution *s, int p,
 {
     const gm_path_terms *t = &s->terms.path[p];
     const gm_real c = p == 0 ? s->terms.coupling : -s->terms.coupling;
+    if (d->elastic[p]) {
+        o->inertia[p] = d->inertia[p];
+        o->a[p] = s->point.a[p];
+        o->transmitted[p] = s->point.tau_m[p];
+        o->path_loss_torque[p] =
+            t->load + (s->held[p] ? d->tau[p] - c - s->point.spring[p] : t->drag);
+        o->elastic_energy += gm_spring_energy(d->gear[p], d->twist[p]);
+        o->kinetic_energy += d->inertia[p] * d->w[p] * d->w[p] / 2;
+        return;
+    }
     if (d->engaged[p]) {
         o->inertia[p] = d->inertia[GM_OUT] / (d->ratio[p] * d->ratio[p]);
         o->a[p] = d->ratio[p] * o->a_o;

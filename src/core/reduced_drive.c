@@ -1,8 +1,13 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
  * What drives the shafts of the reduced gearset over one sub-step: configuration, ratios,
- * inertias (J_s = J_out + sum_E r^2 J_p), flange and cone torques; and the power of the
- * loss torques that the solution found.
+ * inertias (J_s = J_out + sum_E r^2 J_p; elastic paths keep theirs), flange and cone
+ * torques; and the power of the loss torques that the solution found.
+ *
+ * Mean speeds are those of the middle of a sub-step, h/2 into it, unless it is longer
+ * than 2/omega, with omega^2 >= that of the fastest vibration: then they are read at h
+ * z/(4 + z) with z = (omega h)^2, so that vibrations too fast for the sub-step die in it
+ * instead of ringing on, and slow ones are followed.
  */
 #include "reduced_parts.h"
 
@@ -24,11 +29,19 @@ const gm_gear *gm_motion_gear(const gm_reduced_map *map, const gm_motion *s, int
     return path->mode == GM_PATH_NEUTRAL ? NULL : &map->path[p].gears[path->gear];
 }
 
-gm_real gm_motion_inertia(const gm_reduced_map *map, const gm_motion *s)
+int gm_has_own_speed(const gm_reduced_map *map, const gm_reduced_params *params,
+                     const gm_motion *s, int p)
+{
+    return s->path[p].mode != GM_PATH_ENGAGED ||
+           gm_is_elastic(params, gm_motion_gear(map, s, p));
+}
+
+gm_real gm_motion_inertia(const gm_reduced_map *map, const gm_reduced_params *params,
+                          const gm_motion *s)
 {
     gm_real sum = map->inertia_output;
     for (int p = 0; p < map->n_paths; p++) {
-        if (s->path[p].mode == GM_PATH_ENGAGED) {
+        if (!gm_has_own_speed(map, params, s, p)) {
             const gm_real r = gm_motion_gear(map, s, p)->ratio;
             sum += r * r * map->path[p].inertia;
         }
@@ -50,8 +63,12 @@ static void drive_path(const gm_reduced_map *map, const gm_reduced_params *param
     const gm_gear *gear = gm_motion_gear(map, s, p);
     const int engaged = path->mode == GM_PATH_ENGAGED;
     const gm_real ratio = gear ? gear->ratio : 0, inertia = map->path[p].inertia;
+    const int elastic = engaged && gm_is_elastic(params, gear);
     d->engaged[p] = engaged;
     d->free[p] = !engaged;
+    d->elastic[p] = elastic;
+    d->own[p] = !engaged || elastic;
+    d->twist[p] = path->twist;
     d->gear[p] = gear;
     d->ratio[p] = ratio;
     d->inertia[p] = inertia;
@@ -60,14 +77,14 @@ static void drive_path(const gm_reduced_map *map, const gm_reduced_params *param
                      ? gm_cone_torque(params, p, path->w - ratio * s->w_o)
                      : 0;
     d->index = d->index * (map->path[p].n_gears + 1) + (engaged ? path->gear + 1 : 0);
-    d->inertia[GM_OUT] += engaged ? ratio * ratio * inertia : 0;
+    d->inertia[GM_OUT] += d->own[p] ? 0 : ratio * ratio * inertia;
 }
 
 static void drive_no_path(int p, gm_drive *d)
 {
-    d->engaged[p] = d->free[p] = 0;
+    d->engaged[p] = d->free[p] = d->elastic[p] = d->own[p] = 0;
     d->gear[p] = NULL;
-    d->ratio[p] = d->inertia[p] = d->w[p] = d->tau[p] = d->cone[p] = 0;
+    d->ratio[p] = d->inertia[p] = d->w[p] = d->tau[p] = d->cone[p] = d->twist[p] = 0;
 }
 
 void gm_make_drive(const gm_reduced_map *map, const gm_reduced_params *params,
@@ -90,16 +107,38 @@ void gm_make_drive(const gm_reduced_map *map, const gm_reduced_params *params,
     d->coupled = map->n_paths == 2 && map->coupling.value != NULL &&
                  !(d->engaged[0] && d->engaged[1]);
     d->w[GM_OUT] = s->w_o;
+    d->stiff = 0;
+    for (int p = 0; p < d->n_paths; p++) {
+        if (d->elastic[p]) {
+            const gm_real r = d->ratio[p];
+            d->stiff +=
+                d->gear[p]->stiffness * (1 / d->inertia[p] + r * r / d->inertia[GM_OUT]);
+        }
+    }
 }
 
 void gm_set_span(const gm_reduced_inputs *in, gm_real t, gm_real h, gm_drive *d)
 {
-    const gm_real middle = t + h / 2;
+    const gm_real middle = t + h / 2, z = d->stiff * h * h;
     d->h = h;
+    d->mean = z <= 4 ? h / 2 : h * (z / (4 + z));
+    d->late = z <= 4 ? 0 : (z - 4) / (z + 4);
     d->tau[GM_OUT] = in->output_tau + in->output_tau_rate * middle;
     for (int p = 0; p < d->n_paths; p++) {
         d->tau[p] = in->path_tau[p] + in->path_tau_rate[p] * middle;
     }
+}
+
+/* What mean speeds that are late take from the kinetic energy: late J dw^2/2 / h of each
+ * shaft. */
+static gm_real late_power(const gm_drive *d, const gm_solution *s)
+{
+    const gm_real *a = s->point.a;
+    gm_real sum = d->inertia[GM_OUT] * a[GM_OUT] * a[GM_OUT];
+    for (int p = 0; p < d->n_paths; p++) {
+        sum += d->own[p] ? d->inertia[p] * a[p] * a[p] : 0;
+    }
+    return d->late * d->h / 2 * sum;
 }
 
 /* Power of all loss torques at the mean speeds. */
@@ -108,9 +147,16 @@ gm_real gm_loss_power(const gm_drive *d, const gm_solution *s)
     const gm_real *m = s->point.m;
     const gm_real m_o = m[GM_OUT];
     gm_real sum = s->terms.out * m_o + s->terms.coupling * (m[0] - m[1]);
+    if (d->late > 0) {
+        sum += late_power(d, s);
+    }
     for (int p = 0; p < d->n_paths; p++) {
         const gm_path_terms *t = &s->terms.path[p];
-        if (d->engaged[p]) {
+        if (d->elastic[p]) {
+            const gm_stride stride = {d->h, gm_slip(d, &s->point, p), d->late};
+            sum += t->load * d->ratio[p] * m_o + t->drag * m[p];
+            sum += gm_spring_at(d->gear[p], d->twist[p], &stride).power;
+        } else if (d->engaged[p]) {
             sum += t->load * m[p];
         } else {
             sum += t->drag * m[p] + t->reaction * m_o;

@@ -25,7 +25,7 @@ static gm_real slip_of(const gm_reduced_map *map, const gm_motion *s, int p)
 
 static int is_shaft(const gm_drive *d, int k)
 {
-    return k == GM_OUT || d->free[k];
+    return k == GM_OUT || d->own[k];
 }
 
 /* What drives the shafts at this instant; cones act by their mode. */
@@ -133,26 +133,28 @@ int gm_reduced_modes_indicators(const gm_reduced_map *map,
 
 /* Shafts that have reached zero, or gone past it, stand: friction does not turn them
  * round. */
-static void rest(const gm_reduced_map *map, const gm_reduced_modes *modes, gm_motion *s)
+static void rest(const gm_reduced_map *map, const gm_reduced_params *params,
+                 const gm_reduced_modes *modes, gm_motion *s)
 {
     if (modes->direction[GM_OUT] * s->w_o < 0) {
-        gm_bring_to_rest(map, GM_OUT, s);
+        gm_bring_to_rest(map, params, GM_OUT, s);
     }
     for (int p = 0; p < map->n_paths; p++) {
-        if (s->path[p].mode != GM_PATH_ENGAGED &&
+        if (gm_has_own_speed(map, params, s, p) &&
             modes->direction[p] * s->path[p].w < 0) {
-            gm_bring_to_rest(map, p, s);
+            gm_bring_to_rest(map, params, p, s);
         }
     }
 }
 
-static int command_gears(const gm_reduced_map *map, const gm_reduced_inputs *in,
-                         gm_reduced_modes *modes, gm_motion *s)
+static int command_gears(const gm_reduced_map *map, const gm_reduced_params *params,
+                         const gm_reduced_inputs *in, gm_reduced_modes *modes,
+                         gm_motion *s)
 {
     int flags = 0;
     for (int p = 0; p < map->n_paths; p++) {
         const gm_path_state before = s->path[p];
-        flags |= gm_command_gear(map, p, in->gear[p], s);
+        flags |= gm_command_gear(map, params, p, in->gear[p], s);
         if (s->path[p].mode != before.mode || s->path[p].gear != before.gear) {
             modes->slip[p] = 0;
         }
@@ -176,7 +178,7 @@ static void close_cones(const gm_reduced_map *map, const gm_reduced_params *para
     }
     for (int p = 0; p < map->n_paths; p++) {
         if (closes[p]) {
-            gm_engage(map, p, s);
+            gm_engage(map, params, p, s);
         }
         modes->slip[p] = 0;
     }
@@ -221,8 +223,8 @@ int gm_reduced_modes_update(const gm_reduced_map *map, const gm_reduced_params *
     if (!gm_inputs_are_finite(map, inputs)) {
         return GM_FLAG_NOT_FINITE;
     }
-    rest(map, &m, &s);
-    const int flags = command_gears(map, inputs, &m, &s);
+    rest(map, params, &m, &s);
+    const int flags = command_gears(map, params, inputs, &m, &s);
     close_cones(map, params, &m, &s);
     close_cones(map, params, &m, &s); /* one that an impulse has brought to no slip */
     if (!gm_motion_is_finite(map, &s)) {

@@ -4,12 +4,15 @@
  * torques with their gradients, and the solution. Private to the core.
  *
  * Shafts are numbered 0, 1 for the paths and GM_OUT for the output. An engaged path has
- * no speed of its own; "free" is a path in neutral or synchronising.
+ * no speed of its own unless it is elastic; "free" is a path in neutral or synchronising.
  */
 #ifndef REDUCED_PARTS_H
 #define REDUCED_PARTS_H
 
 #include "gm_reduced.h"
+
+/* Sub-steps that a vibration may ask for in one step. */
+enum { GM_PARTS = 4 };
 
 enum { GM_OUT = GM_MAX_PATHS, GM_SHAFTS = GM_MAX_PATHS + 1 };
 
@@ -23,6 +26,35 @@ typedef struct gm_motion {
     gm_real work, loss_energy;
 } gm_motion;
 
+/* One way of a spring: the sub-step, the mean slip over it, what is late (0: the middle,
+ * 1: all at its end); h = 0: at this instant, not late. */
+typedef struct gm_stride {
+    gm_real h, slip, late; /* s, rad/s, 0 .. 1 */
+} gm_stride;
+
+typedef struct gm_spring {
+    gm_real torque, slope; /* T at the path's flange [N.m]; dT/dslip */
+    gm_real power;         /* lost [W] */
+} gm_spring;
+
+/** Mean torque of a gear's spring from a twist on [rad]. */
+gm_spring gm_spring_at(const gm_gear *gear, gm_real twist, const gm_stride *stride);
+
+/* How the slips of elastic paths yield to their springs: slip_p = free_p - sum_q
+ * y[p][q] (T_q - reference_q). */
+typedef struct gm_yield {
+    gm_real free[GM_MAX_PATHS], y[GM_MAX_PATHS][GM_MAX_PATHS];
+} gm_yield;
+
+/** Elastic energy at a twist [J]. */
+gm_real gm_spring_energy(const gm_gear *gear, gm_real twist);
+
+/** Whether a gear's spring acts. */
+static inline int gm_is_elastic(const gm_reduced_params *params, const gm_gear *gear)
+{
+    return params->fidelity == GM_LASH && gear->stiffness > 0;
+}
+
 /* Constant over one sub-step. Path quantities are [p], output's are [GM_OUT]. */
 typedef struct gm_drive {
     const gm_reduced_map *map;
@@ -32,6 +64,9 @@ typedef struct gm_drive {
     int n_paths;
     int coupled; /* the coupling C acts outside P */
     int engaged[GM_MAX_PATHS], free[GM_MAX_PATHS];
+    int elastic[GM_MAX_PATHS];         /* engaged, through its spring */
+    int own[GM_MAX_PATHS];             /* free or elastic: has a speed of its own */
+    gm_real twist[GM_MAX_PATHS];       /* at the start of the sub-step */
     const gm_gear *gear[GM_MAX_PATHS]; /* engaged or being synchronised, else NULL */
     gm_real ratio[GM_MAX_PATHS];       /* of that gear, else 0 */
     gm_real cone[GM_MAX_PATHS];        /* T_c, signed [N.m] */
@@ -41,6 +76,9 @@ typedef struct gm_drive {
     gm_real brake;                     /* the last step's, a first guess [N.m] */
     gm_real scale;                     /* loss_scale */
     gm_real h;                         /* s; 0: at this instant */
+    gm_real mean;  /* mean speeds are those this long into the sub-step [s] */
+    gm_real late;  /* 2 mean/h - 1, of 0 .. 1: 0 but in too long sub-steps */
+    gm_real stiff; /* of the elastic paths: sum of k (1/J_p + r2/J_o) [1/s2] */
 } gm_drive;
 
 /* Where the tables are read: accelerations, mid-step speeds, transmitted torques. */
@@ -48,12 +86,14 @@ typedef struct gm_point {
     gm_real a[GM_SHAFTS]; /* dw/dt; of free paths and of the output */
     gm_real m[GM_SHAFTS]; /* mean speeds of the sub-step; engaged paths r_p m_o */
     gm_real tau_m[GM_MAX_PATHS];
+    gm_real spring[GM_MAX_PATHS]; /* T of elastic paths [N.m] */
 } gm_point;
 
 /* Loss torques of one path with their gradients. Signed: positive brakes forward. */
 typedef struct gm_path_terms {
     gm_real load, load_o, load_tau;           /* sigma_p D; d/dw_o, d/dtau_m */
-    gm_real drag, drag_n, drag_o;             /* N; d/dw_n, d/dw_o */
+    gm_real drag, drag_n, drag_o;             /* N or pin; d/dw_n, d/dw_o */
+    gm_real pin, pin_o;                       /* amount of its pin; d/dw_o */
     gm_real reaction, reaction_n, reaction_o; /* R */
     int patched;    /* 1: N and R come from the patch of reduced_drag.c */
     unsigned ramps; /* else: on which sides of the drag lines */
@@ -68,6 +108,8 @@ typedef struct gm_terms {
 } gm_terms;
 
 typedef struct gm_solution {
+    gm_real
+        slip[GM_MAX_PATHS]; /* of elastic paths, that the springs' torques belong to */
     gm_real lead; /* when in the sub-step C is read: theta h, see reduced_terms.c */
     gm_point point;
     gm_terms terms;          /* the very torques of the momentum balance */
@@ -124,8 +166,13 @@ static inline int gm_cell2_holds(const gm_cell2 *c, gm_real x, gm_real y, gm_rea
 /** Gear engaged or being synchronised on path p; NULL in neutral. */
 const gm_gear *gm_motion_gear(const gm_reduced_map *map, const gm_motion *s, int p);
 
+/** Whether path p has a speed of its own: it is free or elastic. */
+int gm_has_own_speed(const gm_reduced_map *map, const gm_reduced_params *params,
+                     const gm_motion *s, int p);
+
 /** J_s: inertia that turns with the output [kg.m2]. */
-gm_real gm_motion_inertia(const gm_reduced_map *map, const gm_motion *s);
+gm_real gm_motion_inertia(const gm_reduced_map *map, const gm_reduced_params *params,
+                          const gm_motion *s);
 
 /** Index into map->configurations; paths[n_paths]. */
 int gm_configuration_index(const gm_reduced_map *map, const gm_path_state *paths);
@@ -157,19 +204,22 @@ int gm_motion_is_finite(const gm_reduced_map *map, const gm_motion *s);
 
 /** Path p leaves its gear for neutral or begins to synchronise, if the command says so.
  *  Returns a flag when there is no such gear: nothing changes then. */
-int gm_command_gear(const gm_reduced_map *map, int p, int number, gm_motion *s);
+int gm_command_gear(const gm_reduced_map *map, const gm_reduced_params *params, int p,
+                    int number, gm_motion *s);
 
 /** Shaft k stands; what kinetic energy it had goes into the losses. */
-void gm_bring_to_rest(const gm_reduced_map *map, int k, gm_motion *s);
+void gm_bring_to_rest(const gm_reduced_map *map, const gm_reduced_params *params, int k,
+                      gm_motion *s);
 
 /** Path p and the output meet in one impulse that conserves momentum; the kinetic energy
  *  that goes is lost. The path is engaged from here on. */
-void gm_engage(const gm_reduced_map *map, int p, gm_motion *s);
+void gm_engage(const gm_reduced_map *map, const gm_reduced_params *params, int p,
+               gm_motion *s);
 
 /* Part of a step: rest seconds, from start seconds into it; last: events do not end it.
  */
 typedef struct gm_span {
-    gm_real start, rest;
+    gm_real start, rest, step; /* step: the whole */
     int last;
 } gm_span;
 
@@ -192,9 +242,29 @@ void gm_output_terms(const gm_drive *d, gm_real sign, const gm_point *point,
 /** How fast the two paths' speeds part: dw_0/dt - dw_1/dt. */
 static inline gm_real gm_parting(const gm_drive *d, const gm_point *at)
 {
-    return (d->engaged[0] ? d->ratio[0] * at->a[GM_OUT] : at->a[0]) -
-           (d->engaged[1] ? d->ratio[1] * at->a[GM_OUT] : at->a[1]);
+    return (d->own[0] ? at->a[0] : d->ratio[0] * at->a[GM_OUT]) -
+           (d->own[1] ? at->a[1] : d->ratio[1] * at->a[GM_OUT]);
 }
+
+/** Mean slip of an elastic path over the sub-step. */
+static inline gm_real gm_slip(const gm_drive *d, const gm_point *at, int p)
+{
+    return at->m[p] - d->ratio[p] * at->m[GM_OUT];
+}
+
+/** Torques of all springs that fit the slips they cause. slip: where they are read first,
+ *  receives what they belong to; torque: the reference, receives the torques. */
+void gm_springs_meet(const gm_drive *d, const gm_yield *yield, gm_real slip[GM_MAX_PATHS],
+                     gm_real torque[GM_MAX_PATHS]);
+
+/** Pin and transmitted torque of elastic path p, for direction sign_o of the output, with
+ *  the spring's torque at *point. */
+void gm_pin_terms(const gm_drive *d, const gm_solution *s, int p, gm_real sign_o,
+                  gm_point *point, gm_terms *terms);
+
+/** Pin of elastic path p that breaks away in direction sign: terms->path[p].drag. */
+void gm_pin_friction(const gm_drive *d, int p, gm_real sign, const gm_point *point,
+                     gm_terms *terms);
 
 /** N and R of free path p for the directions of the path and of the output. */
 void gm_drag_terms(const gm_drive *d, int p, gm_real sign_n, gm_real sign_o,

@@ -2,19 +2,24 @@
  *
  * Motion of the reduced gearset over one sub-step, implicit midpoint.
  *
- * Unknown are the acceleration a of the output and b_n of each free path. The balance
+ * Unknown are the acceleration a of the output and b_n of each path with its own speed.
+ * The balance
  *
  *   F_o = J_s a - tau_o - sum_E r (g_p - sigma_p D_p) - sum_sync r T_c + sum_N R
  *         + sigma (P + X)
  *   F_n = J_n b - g_n + N_n + T_c,n            g_0 = tau_0 - C,  g_1 = tau_1 + C
  *
- * holds at the mean speeds m = w + h/2 dw/dt. Inside the cells of all tables the terms
+ * (for elastic paths as gm_reduced.h has it) holds at the mean speeds m = w + mean dw/dt,
+ * mean = h/2 where no vibration is too fast. Inside the cells of all tables the terms
  * are linear but for small bilinear remainders, so one Newton pass solves it; when a
  * table leaves its cell the next pass starts there. Every pass yields torques that fulfil
  * the linearised balance to rounding, and these torques are what the account of losses
  * uses: it closes whether or not the passes have converged. The passes are bounded by
  * GM_PASSES; brackets on every unknown turn cycles between cells into bisection. Only the
  * coupling C may be read later than at the middle of the step, when it is stiff.
+ *
+ * Springs are not linearised: within the linear system of a pass their torques are found
+ * together with the slips they cause (reduced_spring.c).
  *
  * Friction at rest: a shaft at standstill is held unless the torque on it exceeds one of
  * the two one-sided limits; then it is let go in that direction. Each shaft can be let go
@@ -34,11 +39,12 @@ enum { GM_PASSES = 60, GM_FREE_PASSES = 3, GM_ROUNDS = 2 * GM_SHAFTS + 1 };
  * leave no unique solution. */
 #define PIVOT_LIMIT 0.1
 
-/* One row of the linear system for the changes of the accelerations. */
-typedef struct row {
-    gm_real k[GM_SHAFTS], right;
-    gm_real least; /* smallest pivot that is accepted */
-} row;
+/* The linear system for the changes of the accelerations, a row for each shaft,
+ * factorised in place: multipliers below the diagonal, inverse pivots on it. */
+typedef struct matrix {
+    gm_real k[GM_SHAFTS][GM_SHAFTS];
+    gm_real least[GM_SHAFTS]; /* smallest pivots that are accepted */
+} matrix;
 
 /* ---- the linear system ---- */
 
@@ -47,7 +53,9 @@ static gm_real output_balance(const gm_drive *d, const gm_terms *t, const gm_poi
     gm_real sum = d->tau[GM_OUT] - t->out - d->inertia[GM_OUT] * at->a[GM_OUT];
     for (int p = 0; p < d->n_paths; p++) {
         const gm_real c = p == 0 ? -t->coupling : t->coupling;
-        if (d->engaged[p]) {
+        if (d->elastic[p]) {
+            sum += d->ratio[p] * (at->spring[p] - t->path[p].load);
+        } else if (d->engaged[p]) {
             sum += d->ratio[p] * (d->tau[p] + c - t->path[p].load);
         } else {
             sum += d->ratio[p] * d->cone[p] - t->path[p].reaction;
@@ -60,7 +68,9 @@ static gm_real path_balance(const gm_drive *d, const gm_terms *t, const gm_point
                             int p)
 {
     const gm_real c = p == 0 ? -t->coupling : t->coupling;
-    return d->tau[p] + c - t->path[p].drag - d->cone[p] - d->inertia[p] * at->a[p];
+    const gm_real spring = d->elastic[p] ? at->spring[p] : 0;
+    return d->tau[p] + c - t->path[p].drag - spring - d->cone[p] -
+           d->inertia[p] * at->a[p];
 }
 
 /* Part of a torque at flange p that reaches the output: r (1 - dD/dtau) - dX/dtau. */
@@ -69,62 +79,79 @@ static gm_real passed_on(const gm_drive *d, const gm_terms *t, int p)
     return d->ratio[p] * (1 - t->path[p].load_tau) - t->out_tau[p];
 }
 
-static row output_row(const gm_drive *d, const gm_terms *t, const gm_point *at)
+/* While friction holds an elastic path, its transmitted torque is the one on its flange
+ * and does not follow the spring. */
+static gm_real passed_by_spring(const gm_drive *d, const gm_solution *s, int p)
 {
-    const gm_real half = d->h / 2;
-    gm_real slope = t->out_o, inertia = d->map->inertia_output;
-    row line = {{0, 0, 0}, output_balance(d, t, at), PIVOT_LIMIT * d->inertia[GM_OUT]};
+    return s->held[p] ? d->ratio[p] : passed_on(d, &s->terms, p);
+}
+
+static void output_row(const gm_drive *d, const gm_solution *s, matrix *m)
+{
+    const gm_terms *t = &s->terms;
+    const gm_real mean = d->mean;
+    gm_real slope = t->out_o, inertia = d->map->inertia_output, *k = m->k[GM_OUT];
+    k[0] = k[1] = 0;
+    m->least[GM_OUT] = PIVOT_LIMIT * d->inertia[GM_OUT];
     for (int p = 0; p < d->n_paths; p++) {
         const gm_path_terms *path = &t->path[p];
         const gm_real r = d->ratio[p];
-        if (d->engaged[p]) {
+        if (d->elastic[p]) {
+            slope += r * path->load_o + (r - passed_by_spring(d, s, p)) * path->drag_o;
+        } else if (d->engaged[p]) {
             const gm_real q = passed_on(d, t, p);
             inertia += d->inertia[p] * r * q;
             slope += r * path->load_o;
             inertia += r * q * t->coupling_a;
-            line.k[1 - p] -= q * t->coupling_a;
+            k[1 - p] -= q * t->coupling_a;
         } else {
             slope += path->reaction_o;
-            line.k[p] += half * path->reaction_n;
+            k[p] += mean * path->reaction_n;
         }
     }
-    line.k[GM_OUT] = inertia + half * slope;
-    return line;
+    k[GM_OUT] = inertia + mean * slope;
 }
 
-static row path_row(const gm_drive *d, const gm_terms *t, const gm_point *at, int p)
+static void path_row(const gm_drive *d, const gm_terms *t, int p, matrix *m)
 {
-    const gm_real half = d->h / 2, c_a = t->coupling_a;
+    const gm_real mean = d->mean, c_a = t->coupling_a;
     const gm_path_terms *path = &t->path[p];
     const int other = 1 - p;
-    row line = {{0, 0, 0}, path_balance(d, t, at, p), PIVOT_LIMIT * d->inertia[p]};
-    line.k[p] = d->inertia[p] + half * path->drag_n + c_a;
-    line.k[other] = -c_a;
-    line.k[GM_OUT] =
-        half * path->drag_o - (d->engaged[other] ? c_a * d->ratio[other] : 0);
-    return line;
+    m->least[p] = PIVOT_LIMIT * d->inertia[p];
+    m->k[p][p] = d->inertia[p] + mean * path->drag_n + c_a;
+    m->k[p][other] = -c_a;
+    m->k[p][GM_OUT] = mean * path->drag_o - (d->own[other] ? 0 : c_a * d->ratio[other]);
 }
 
 /* Elimination in fixed order; a shaft that does not move by itself has a row of the unit
  * matrix. 0 when a pivot is too small. */
-static int eliminate(row r[GM_SHAFTS], gm_real change[GM_SHAFTS])
+static int factorise(matrix *m)
 {
-    row *a = &r[0], *b = &r[1], *o = &r[GM_OUT];
-    const gm_real inverse_a = 1 / a->k[0], f_b = b->k[0] * inverse_a;
-    const gm_real f_o = o->k[0] * inverse_a;
-    b->k[1] -= f_b * a->k[1];
-    b->k[2] -= f_b * a->k[2];
-    b->right -= f_b * a->right;
-    o->k[1] -= f_o * a->k[1];
-    o->k[2] -= f_o * a->k[2];
-    o->right -= f_o * a->right;
-    const gm_real inverse_b = 1 / b->k[1], g_o = o->k[1] * inverse_b;
-    o->k[2] -= g_o * b->k[2];
-    o->right -= g_o * b->right;
-    change[GM_OUT] = o->right / o->k[2];
-    change[1] = (b->right - b->k[2] * change[GM_OUT]) * inverse_b;
-    change[0] = (a->right - a->k[1] * change[1] - a->k[2] * change[GM_OUT]) * inverse_a;
-    return a->k[0] > a->least && b->k[1] > b->least && o->k[2] > o->least;
+    gm_real(*k)[GM_SHAFTS] = m->k;
+    int good = k[0][0] > m->least[0];
+    k[0][0] = 1 / k[0][0];
+    k[1][0] *= k[0][0];
+    k[2][0] *= k[0][0];
+    k[1][1] -= k[1][0] * k[0][1];
+    k[1][2] -= k[1][0] * k[0][2];
+    k[2][1] -= k[2][0] * k[0][1];
+    good &= k[1][1] > m->least[1];
+    k[1][1] = 1 / k[1][1];
+    k[2][1] *= k[1][1];
+    k[2][2] -= k[2][0] * k[0][2] + k[2][1] * k[1][2];
+    good &= k[2][2] > m->least[2];
+    k[2][2] = 1 / k[2][2];
+    return good;
+}
+
+static void substitute(const matrix *m, gm_real x[GM_SHAFTS])
+{
+    const gm_real(*k)[GM_SHAFTS] = m->k;
+    x[1] -= k[1][0] * x[0];
+    x[2] -= k[2][0] * x[0] + k[2][1] * x[1];
+    x[2] *= k[2][2];
+    x[1] = (x[1] - k[1][2] * x[2]) * k[1][1];
+    x[0] = (x[0] - k[0][1] * x[1] - k[0][2] * x[2]) * k[0][0];
 }
 
 static void drop_gradients(gm_terms *t)
@@ -137,40 +164,110 @@ static void drop_gradients(gm_terms *t)
     }
 }
 
-static void newton_change(const gm_drive *d, gm_solution *s, const gm_point *at,
-                          gm_real change[GM_SHAFTS])
+static void make_matrix(const gm_drive *d, gm_solution *s, matrix *m)
 {
+    static const matrix unit = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}};
     for (int attempt = 0; attempt < 2; attempt++) {
-        row rows[GM_SHAFTS] = {{{1, 0, 0}, 0, 0}, {{0, 1, 0}, 0, 0}, {{0, 0, 1}, 0, 0}};
+        *m = unit;
         for (int p = 0; p < d->n_paths; p++) {
-            if (d->free[p] && !s->held[p]) {
-                rows[p] = path_row(d, &s->terms, at, p);
+            if (d->own[p] && !s->held[p]) {
+                path_row(d, &s->terms, p, m);
             }
         }
         if (!s->held[GM_OUT]) {
-            rows[GM_OUT] = output_row(d, &s->terms, at);
+            output_row(d, s, m);
         }
-        if (eliminate(rows, change)) {
+        if (factorise(m)) {
             return;
         }
         drop_gradients(&s->terms); /* leaves a diagonal of inertias */
     }
 }
 
-/* ---- the passes ---- */
-
-static void set_speeds(const gm_drive *d, gm_point *at)
+/* The springs' torques, and what they change in *to; linear but for the springs
+ * themselves. */
+static void add_springs(const gm_drive *d, gm_solution *s, const matrix *m,
+                        const gm_point *at, gm_real change[GM_SHAFTS])
 {
-    const gm_real half = d->h / 2;
-    at->m[GM_OUT] = d->w[GM_OUT] + half * at->a[GM_OUT];
-    for (int p = 0; p < GM_MAX_PATHS; p++) {
-        at->m[p] =
-            d->engaged[p] ? d->ratio[p] * at->m[GM_OUT] : d->w[p] + half * at->a[p];
+    gm_real per_torque[GM_MAX_PATHS][GM_SHAFTS] = {{0, 0, 0}, {0, 0, 0}};
+    gm_yield yield = {{0, 0}, {{0, 0}, {0, 0}}};
+    for (int q = 0; q < d->n_paths; q++) {
+        if (d->elastic[q]) {
+            per_torque[q][q] = s->held[q] ? 0 : -1;
+            per_torque[q][GM_OUT] = s->held[GM_OUT] ? 0 : passed_by_spring(d, s, q);
+            substitute(m, per_torque[q]);
+        }
+    }
+    for (int p = 0; p < d->n_paths; p++) {
+        const gm_real r = d->ratio[p];
+        yield.free[p] = gm_slip(d, at, p) + d->mean * (change[p] - r * change[GM_OUT]);
+        for (int q = 0; q < d->n_paths; q++) {
+            yield.y[p][q] = d->mean * (r * per_torque[q][GM_OUT] - per_torque[q][p]);
+        }
+    }
+    for (int q = 0; q < GM_MAX_PATHS; q++) {
+        s->point.spring[q] = at->spring[q];
+    }
+    gm_springs_meet(d, &yield, s->slip, s->point.spring);
+    for (int q = 0; q < d->n_paths; q++) {
+        const gm_real more = s->point.spring[q] - at->spring[q];
+        for (int k = 0; k < GM_SHAFTS; k++) {
+            change[k] += more * per_torque[q][k];
+        }
     }
 }
 
-static void linearise(const gm_drive *d, gm_terms *t, const gm_point *from, gm_point *to)
+static void newton_change(const gm_drive *d, gm_solution *s, const gm_point *at,
+                          gm_real change[GM_SHAFTS])
 {
+    matrix m;
+    make_matrix(d, s, &m);
+    change[GM_OUT] = s->held[GM_OUT] ? 0 : output_balance(d, &s->terms, at);
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        change[p] = d->own[p] && !s->held[p] ? path_balance(d, &s->terms, at, p) : 0;
+    }
+    substitute(&m, change);
+    if (d->elastic[0] || d->elastic[1]) {
+        add_springs(d, s, &m, at, change);
+    }
+}
+
+/* ---- the passes ---- */
+
+/* A place where tables are read: accelerations and springs' torques. */
+enum { GM_PLACE = GM_SHAFTS + GM_MAX_PATHS };
+
+typedef struct bracket {
+    gm_real low, high;
+} bracket;
+
+static void set_speeds(const gm_drive *d, gm_point *at)
+{
+    const gm_real half = d->mean;
+    at->m[GM_OUT] = d->w[GM_OUT] + half * at->a[GM_OUT];
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        at->m[p] = d->own[p] ? d->w[p] + half * at->a[p] : d->ratio[p] * at->m[GM_OUT];
+    }
+}
+
+/* The elastic path's part of linearise: spring, pin, and with them the loads. */
+static void linearise_spring(gm_solution *s, int p, const gm_point *from, gm_point *to)
+{
+    gm_path_terms *path = &s->terms.path[p];
+    const gm_real d_o = to->m[GM_OUT] - from->m[GM_OUT];
+    const gm_real d_spring = to->spring[p] - from->spring[p];
+    const gm_real d_drag = path->drag_o * d_o;
+    const gm_real d_tau = s->held[p] ? 0 : d_spring + d_drag;
+    path->drag += d_drag;
+    to->tau_m[p] = from->tau_m[p] + d_tau;
+    path->load += path->load_o * d_o + path->load_tau * d_tau;
+    s->terms.out += s->terms.out_tau[p] * d_tau;
+}
+
+static void linearise(const gm_drive *d, gm_solution *s, const gm_point *from,
+                      gm_point *to)
+{
+    gm_terms *t = &s->terms;
     const gm_real d_o = to->m[GM_OUT] - from->m[GM_OUT];
     const gm_real d_a = to->a[GM_OUT] - from->a[GM_OUT];
     const gm_real d_c = t->coupling_a * (gm_parting(d, to) - gm_parting(d, from));
@@ -178,7 +275,9 @@ static void linearise(const gm_drive *d, gm_terms *t, const gm_point *from, gm_p
     t->out += t->out_o * d_o;
     for (int p = 0; p < d->n_paths; p++) {
         gm_path_terms *path = &t->path[p];
-        if (d->engaged[p]) {
+        if (d->elastic[p]) {
+            linearise_spring(s, p, from, to);
+        } else if (d->engaged[p]) {
             const gm_real d_tau =
                 (p == 0 ? -d_c : d_c) - d->inertia[p] * d->ratio[p] * d_a;
             to->tau_m[p] = from->tau_m[p] + d_tau;
@@ -192,23 +291,31 @@ static void linearise(const gm_drive *d, gm_terms *t, const gm_point *from, gm_p
     }
 }
 
-/* Where the next pass reads the tables: at the solution of the last one, or half way to
- * the last place on the other side once the passes go to and fro. */
-static void next_place(int pass, const gm_point *at, gm_point *to, gm_real low[GM_SHAFTS],
-                       gm_real high[GM_SHAFTS])
+/* What the next pass reads instead of to, one coordinate of the place: half way to the
+ * last place on the other side once the passes go to and fro. */
+static gm_real next_coordinate(int pass, gm_real from, gm_real to, bracket *b)
+{
+    if (to > from) {
+        b->low = from > b->low ? from : b->low;
+    } else if (to < from) {
+        b->high = from < b->high ? from : b->high;
+    }
+    if (pass >= GM_FREE_PASSES && b->low < b->high && b->low > -GM_FAR &&
+        b->high < GM_FAR && (to <= b->low || to >= b->high)) {
+        return b->low / 2 + b->high / 2;
+    }
+    return to;
+}
+
+/* Where the next pass reads the tables. */
+static void next_place(int pass, const gm_point *at, gm_point *to, bracket b[GM_PLACE])
 {
     for (int k = 0; k < GM_SHAFTS; k++) {
-        const gm_real from = at->a[k];
-        if (to->a[k] > from) {
-            low[k] = from > low[k] ? from : low[k];
-        } else if (to->a[k] < from) {
-            high[k] = from < high[k] ? from : high[k];
-        }
-        if (pass >= GM_FREE_PASSES && low[k] < high[k] &&
-            (to->a[k] <= low[k] || to->a[k] >= high[k])) {
-            const gm_real middle = low[k] / 2 + high[k] / 2;
-            to->a[k] = low[k] > -GM_FAR && high[k] < GM_FAR ? middle : to->a[k];
-        }
+        to->a[k] = next_coordinate(pass, at->a[k], to->a[k], &b[k]);
+    }
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        to->spring[p] =
+            next_coordinate(pass, at->spring[p], to->spring[p], &b[GM_SHAFTS + p]);
     }
 }
 
@@ -228,34 +335,43 @@ gm_real gm_brake(const gm_drive *d, const gm_solution *s)
 }
 
 /* First place: the output under its flange torques with the losses of the last step, free
- * paths at their present speed. */
-static void first_place(const gm_drive *d, const gm_solution *s, gm_point *at)
+ * paths at their present speed; with an elastic path everything at its present speed. */
+static void first_place(const gm_drive *d, gm_solution *s, gm_point *at)
 {
+    const int stays = s->held[GM_OUT] || d->elastic[0] || d->elastic[1];
     at->a[0] = at->a[1] = 0;
-    at->a[GM_OUT] =
-        s->held[GM_OUT] ? 0 : (driving_torque(d) - d->brake) / d->inertia[GM_OUT];
+    at->a[GM_OUT] = stays ? 0 : (driving_torque(d) - d->brake) / d->inertia[GM_OUT];
     set_speeds(d, at);
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        at->spring[p] = 0;
+        if (d->elastic[p]) {
+            const gm_stride stride = {d->h, gm_slip(d, at, p), d->late};
+            s->slip[p] = stride.slip;
+            at->spring[p] = gm_spring_at(d->gear[p], d->twist[p], &stride).torque;
+        }
+    }
 }
 
 static void one_pass(const gm_drive *d, gm_solution *s, gm_point *at)
 {
     gm_real change[GM_SHAFTS];
     gm_terms_at(d, s, at);
+    s->point.spring[0] = s->point.spring[1] = 0;
     newton_change(d, s, at, change);
     for (int k = 0; k < GM_SHAFTS; k++) {
         s->point.a[k] = at->a[k] + change[k];
     }
     set_speeds(d, &s->point);
-    linearise(d, &s->terms, at, &s->point);
+    linearise(d, s, at, &s->point);
 }
 
 /* Another problem than the pass before solved (s->lead has moved): nothing is excluded.
  */
-static void reset_brackets(gm_real low[GM_SHAFTS], gm_real high[GM_SHAFTS])
+static void reset_brackets(bracket b[GM_PLACE])
 {
-    for (int k = 0; k < GM_SHAFTS; k++) {
-        low[k] = -GM_FAR;
-        high[k] = GM_FAR;
+    for (int k = 0; k < GM_PLACE; k++) {
+        b[k].low = -GM_FAR;
+        b[k].high = GM_FAR;
     }
 }
 
@@ -268,15 +384,16 @@ void gm_solve_given(const gm_drive *d, gm_solution *s)
     if (gm_terms_hold(d, s, &at, &s->point)) {
         return;
     }
-    gm_real low[GM_SHAFTS], high[GM_SHAFTS], lead = d->h / 2;
-    reset_brackets(low, high);
+    bracket brackets[GM_PLACE];
+    gm_real lead = d->h / 2;
+    reset_brackets(brackets);
     for (int pass = 1; pass < GM_PASSES; pass++) {
         gm_point next = s->point;
         if (s->lead != lead) {
-            reset_brackets(low, high);
+            reset_brackets(brackets);
             lead = s->lead;
         } else {
-            next_place(pass, &at, &next, low, high);
+            next_place(pass, &at, &next, brackets);
             set_speeds(d, &next);
         }
         at = next;
@@ -294,7 +411,11 @@ static gm_real path_excess(const gm_drive *d, const gm_solution *s, int p, gm_re
 {
     gm_point at = s->point;
     at.a[p] = at.m[p] = 0;
-    gm_drag_terms(d, p, sign, s->sign[GM_OUT], &at, t);
+    if (d->elastic[p]) {
+        gm_pin_friction(d, p, sign, &at, t);
+    } else {
+        gm_drag_terms(d, p, sign, s->sign[GM_OUT], &at, t);
+    }
     return path_balance(d, t, &at, p);
 }
 
@@ -304,7 +425,9 @@ static gm_real output_excess(const gm_drive *d, const gm_solution *s, gm_real si
     gm_point at = s->point;
     at.a[GM_OUT] = at.m[GM_OUT] = 0;
     for (int p = 0; p < d->n_paths; p++) {
-        if (d->engaged[p]) {
+        if (d->elastic[p]) {
+            gm_pin_terms(d, s, p, sign, &at, t);
+        } else if (d->engaged[p]) {
             at.m[p] = 0;
             at.tau_m[p] = d->tau[p] + (p == 0 ? -t->coupling : t->coupling);
         } else if (!s->held[p]) {
@@ -337,7 +460,7 @@ static int breaks_away(const gm_drive *d, const gm_solution *s, int k)
 
 static int revise(const gm_drive *d, gm_solution *s, int k)
 {
-    if (d->w[k] != 0 || (k != GM_OUT && !d->free[k])) {
+    if (d->w[k] != 0 || (k != GM_OUT && !d->own[k])) {
         return 0;
     }
     if (s->held[k]) {
@@ -359,7 +482,7 @@ void gm_solve(const gm_drive *d, gm_solution *s)
     int standing = 0;
     for (int k = 0; k < GM_SHAFTS; k++) {
         s->sign[k] = d->w[k] < 0 ? -1 : 1;
-        s->held[k] = d->w[k] == 0 && (k == GM_OUT || d->free[k]);
+        s->held[k] = d->w[k] == 0 && (k == GM_OUT || d->own[k]);
         s->barred[k] = 0;
         standing += s->held[k];
     }

@@ -12,14 +12,16 @@
  * (those beyond are treated at the end of the step), GM_LOCATE solutions for each.
  *
  * Account on every sub-step: work = sum tau_mean h m, loss = sum T h m over the very
- * torques T of the momentum balance, m = (w + w+)/2. Hence work = change of kinetic
- * energy + loss to rounding.
+ * torques T of the momentum balance, m the mean speeds. Hence work = change of kinetic
+ * and elastic energy + loss to rounding.
  */
 #include "reduced_parts.h"
 
 #include <stddef.h>
 
 enum { GM_LOCATE = 16 }; /* solutions to locate one event */
+
+#define GM_RESOLVED 4 /* (omega h)^2 that a sub-step follows at its mean speeds */
 
 #define GM_EVENT_TOLERANCE 1e-10 /* of the speed at the start of the sub-step */
 
@@ -36,8 +38,9 @@ static void advance(const gm_drive *d, const gm_solution *solution, gm_motion *s
     s->phi_o += h * at->m[GM_OUT];
     for (int p = 0; p < d->n_paths; p++) {
         power += d->tau[p] * at->m[p];
-        s->path[p].w = d->engaged[p] ? d->ratio[p] * s->w_o : d->w[p] + h * at->a[p];
+        s->path[p].w = d->own[p] ? d->w[p] + h * at->a[p] : d->ratio[p] * s->w_o;
         s->path[p].phi += h * at->m[p];
+        s->path[p].twist += d->elastic[p] ? h * gm_slip(d, at, p) : 0;
     }
     s->work += h * power;
     s->loss_energy += h * gm_loss_power(d, solution);
@@ -51,7 +54,7 @@ static void event_speeds(const gm_drive *d, const gm_real w[GM_SHAFTS],
 {
     e[GM_OUT] = w[GM_OUT];
     for (int p = 0; p < GM_MAX_PATHS; p++) {
-        e[p] = d->free[p] ? w[p] : 0;
+        e[p] = d->own[p] ? w[p] : 0;
         e[GM_CLOSES + p] = d->free[p] && d->gear[p] ? w[p] - d->ratio[p] * w[GM_OUT] : 0;
     }
 }
@@ -143,13 +146,25 @@ static int locate(const gm_reduced_inputs *in, gm_real t, const gm_real start[GM
     return s.event;
 }
 
+/* Engaged paths that have no speed of their own. */
+static void turn_with_output(const gm_reduced_map *map, const gm_reduced_params *params,
+                             gm_motion *s)
+{
+    for (int p = 0; p < map->n_paths; p++) {
+        if (!gm_has_own_speed(map, params, s, p)) {
+            s->path[p].w = gm_motion_gear(map, s, p)->ratio * s->w_o;
+        }
+    }
+}
+
 /* Path p and the output meet in one impulse that conserves momentum; what kinetic energy
  * goes is lost. The path is engaged from here on. */
-void gm_engage(const gm_reduced_map *map, int p, gm_motion *s)
+void gm_engage(const gm_reduced_map *map, const gm_reduced_params *params, int p,
+               gm_motion *s)
 {
     gm_path_state *path = &s->path[p];
     const gm_real r = map->path[p].gears[path->gear].ratio;
-    const gm_real j_p = map->path[p].inertia, j_o = gm_motion_inertia(map, s);
+    const gm_real j_p = map->path[p].inertia, j_o = gm_motion_inertia(map, params, s);
     const gm_real slip = path->w - r * s->w_o;
     if (slip != 0) {
         const gm_real j_sum = j_o + r * r * j_p;
@@ -157,21 +172,18 @@ void gm_engage(const gm_reduced_map *map, int p, gm_motion *s)
         s->w_o += r * j_p * slip / j_sum;
     }
     path->mode = GM_PATH_ENGAGED;
-    for (int i = 0; i < map->n_paths; i++) {
-        if (s->path[i].mode == GM_PATH_ENGAGED) {
-            s->path[i].w = gm_motion_gear(map, s, i)->ratio * s->w_o;
-        }
-    }
+    path->twist = 0;
+    path->w = r * s->w_o;
+    turn_with_output(map, params, s);
 }
 
-void gm_bring_to_rest(const gm_reduced_map *map, int k, gm_motion *s)
+void gm_bring_to_rest(const gm_reduced_map *map, const gm_reduced_params *params, int k,
+                      gm_motion *s)
 {
     if (k == GM_OUT) {
-        s->loss_energy += gm_motion_inertia(map, s) * s->w_o * s->w_o / 2;
+        s->loss_energy += gm_motion_inertia(map, params, s) * s->w_o * s->w_o / 2;
         s->w_o = 0;
-        for (int p = 0; p < map->n_paths; p++) {
-            s->path[p].w = s->path[p].mode == GM_PATH_ENGAGED ? 0 : s->path[p].w;
-        }
+        turn_with_output(map, params, s);
         return;
     }
     s->loss_energy += map->path[k].inertia * s->path[k].w * s->path[k].w / 2;
@@ -179,9 +191,9 @@ void gm_bring_to_rest(const gm_reduced_map *map, int k, gm_motion *s)
 }
 
 /* Treat an event, and what else was passed together with it. */
-static void treat_events(const gm_reduced_map *map, int event,
-                         const gm_real start[GM_EVENTS], const gm_real end[GM_EVENTS],
-                         gm_motion *s)
+static void treat_events(const gm_reduced_map *map, const gm_reduced_params *params,
+                         const gm_drive *d, int event, const gm_real start[GM_EVENTS],
+                         const gm_real end[GM_EVENTS], gm_motion *s)
 {
     for (int i = 0; i < GM_EVENTS; i++) {
         const int passed = (start[i] > 0 && end[i] < 0) || (start[i] < 0 && end[i] > 0);
@@ -189,9 +201,9 @@ static void treat_events(const gm_reduced_map *map, int event,
             continue;
         }
         if (i >= GM_CLOSES) {
-            gm_engage(map, i - GM_CLOSES, s);
-        } else if (i == GM_OUT || s->path[i].mode != GM_PATH_ENGAGED) {
-            gm_bring_to_rest(map, i, s);
+            gm_engage(map, params, i - GM_CLOSES, s);
+        } else if (i == GM_OUT || d->own[i]) {
+            gm_bring_to_rest(map, params, i, s);
         }
     }
 }
@@ -202,7 +214,7 @@ static int passes_event(const gm_drive *d, const gm_motion *s)
     const gm_real w_o = d->w[GM_OUT];
     int passed = w_o * s->w_o < 0;
     for (int p = 0; p < d->n_paths; p++) {
-        if (d->free[p]) {
+        if (d->own[p]) {
             const gm_real slip = s->path[p].w - d->ratio[p] * s->w_o;
             passed |= d->w[p] * s->path[p].w < 0 || d->cone[p] * slip < 0;
         }
@@ -211,9 +223,9 @@ static int passes_event(const gm_drive *d, const gm_motion *s)
 }
 
 /* Again from *from, which the sub-step has left, to its first event. */
-static void stop_at_event(const gm_reduced_map *map, const gm_reduced_inputs *in,
-                          const gm_span *span, gm_drive *d, gm_solution *solution,
-                          const gm_motion *from, gm_motion *s)
+static void stop_at_event(const gm_reduced_map *map, const gm_reduced_params *params,
+                          const gm_reduced_inputs *in, const gm_span *span, gm_drive *d,
+                          gm_solution *solution, const gm_motion *from, gm_motion *s)
 {
     gm_real start[GM_EVENTS], end[GM_EVENTS], w[GM_SHAFTS];
     event_speeds(d, d->w, start);
@@ -228,7 +240,25 @@ static void stop_at_event(const gm_reduced_map *map, const gm_reduced_inputs *in
     }
     *s = *from;
     advance(d, solution, s);
-    treat_events(map, event, start, end, s);
+    treat_events(map, params, d, event, start, end, s);
+}
+
+/* Length of a sub-step: all that is left, or an equal part of it while an elastic path
+ * vibrates so fast that the step needs up to GM_PARTS of them. */
+static gm_real part_of(const gm_drive *d, const gm_span *span)
+{
+    int parts = 1, left = 1;
+    if (span->last || d->stiff == 0) {
+        return span->rest;
+    }
+    while (parts < GM_PARTS &&
+           d->stiff * span->step * span->step > GM_RESOLVED * parts * parts) {
+        parts++;
+    }
+    while (left < parts && span->rest * parts > 1.001 * span->step * left) {
+        left++;
+    }
+    return span->rest / left;
 }
 
 gm_real gm_substep(const gm_reduced_map *map, const gm_reduced_params *params,
@@ -239,11 +269,11 @@ gm_real gm_substep(const gm_reduced_map *map, const gm_reduced_params *params,
     gm_solution solution;
     const gm_motion from = *s;
     gm_make_drive(map, params, s, cache, &d);
-    gm_set_span(in, span->start, span->rest, &d);
+    gm_set_span(in, span->start, part_of(&d, span), &d);
     gm_solve(&d, &solution);
     advance(&d, &solution, s);
     if (passes_event(&d, s)) {
-        stop_at_event(map, in, span, &d, &solution, &from, s);
+        stop_at_event(map, params, in, span, &d, &solution, &from, s);
     }
     *outside |= solution.terms.outside;
     return d.h;

@@ -4,7 +4,9 @@
  * mid-step speeds and transmitted torques.
  *
  *   output          sigma [P(|w_o|) + X(|w_o|, sigma_0 tau_m,0, sigma_1 tau_m,1)]
- *   engaged path    sigma_p D(|w_p|, sigma_p tau_m,p)          sigma_p = sgn(r_p) sigma
+ *   engaged path    sigma_p D(|r_p w_o|, sigma_p tau_m,p)      sigma_p = sgn(r_p) sigma
+ *   elastic path    sgn(w_p) pin(|r_p w_o|) at its flange, |r_p| pin less at the output;
+ *                   tau_m is the spring's torque and what brakes the path
  *   coupling        C(w_0 - w_1), unless both paths are engaged (then it is inside P)
  *
  * The drag of free paths is in reduced_drag.c. Sources: the equations in gm_reduced.h.
@@ -24,10 +26,10 @@
  * step; theta = 1 - 1/z takes it to rest at once. */
 static gm_real coupling_lead(const gm_drive *d, gm_real slope)
 {
-    const gm_real j_0 = d->inertia[d->engaged[0] ? GM_OUT : 0];
-    const gm_real j_1 = d->inertia[d->engaged[1] ? GM_OUT : 1];
-    const gm_real g_0 = d->engaged[0] ? d->ratio[0] * d->ratio[0] : 1;
-    const gm_real g_1 = d->engaged[1] ? d->ratio[1] * d->ratio[1] : 1;
+    const gm_real j_0 = d->inertia[d->own[0] ? 0 : GM_OUT];
+    const gm_real j_1 = d->inertia[d->own[1] ? 1 : GM_OUT];
+    const gm_real g_0 = d->own[0] ? 1 : d->ratio[0] * d->ratio[0];
+    const gm_real g_1 = d->own[1] ? 1 : d->ratio[1] * d->ratio[1];
     const gm_real above = d->h * slope * (g_0 * j_1 + g_1 * j_0), below = j_0 * j_1;
     return above <= 2 * below ? d->h / 2 : d->h - d->h * below / above;
 }
@@ -50,13 +52,13 @@ static void load_terms(const gm_drive *d, int p, gm_real sign_o, const gm_point 
     const gm_gear *gear = d->gear[p];
     const gm_real sigma = gear->ratio < 0 ? -sign_o : sign_o;
     const int dir = gm_direction(sigma);
-    const gm_value2 v =
-        gm_cell2_at(&gear->load_loss[dir], 1 + (int)(gear - d->map->path[p].gears),
-                    &d->cache->load_loss[p][dir], gm_not_below_zero(sigma * at->m[p]),
-                    sigma * at->tau_m[p]);
+    const gm_real speed = sigma * gear->ratio * at->m[GM_OUT];
+    const gm_value2 v = gm_cell2_at(
+        &gear->load_loss[dir], 1 + (int)(gear - d->map->path[p].gears),
+        &d->cache->load_loss[p][dir], gm_not_below_zero(speed), sigma * at->tau_m[p]);
     gm_path_terms *path = &t->path[p];
     path->load = d->scale * sigma * v.value;
-    path->load_o = sigma * at->m[p] < 0 ? 0 : d->scale * v.dx * gear->ratio;
+    path->load_o = speed < 0 ? 0 : d->scale * v.dx * gear->ratio;
     path->load_tau = d->scale * v.dy;
     t->outside |= v.outside;
 }
@@ -95,10 +97,62 @@ void gm_output_terms(const gm_drive *d, gm_real sigma, const gm_point *at, gm_te
         if (d->engaged[p]) {
             load_terms(d, p, sigma, at, t);
         }
+        if (d->elastic[p]) {
+            const gm_real r = sigma * gm_abs(d->ratio[p]);
+            t->out -= r * t->path[p].pin;
+            t->out_o -= r * t->path[p].pin_o;
+        }
     }
     if (d->engaged[0] && d->engaged[1]) {
         add_both_loaded(d, sigma, at, t);
     }
+}
+
+/* Pin of elastic path p where it turns in direction sign (of the path), as a torque in
+ * that direction; d/dw_o in dx. */
+static gm_value1 pin_at(const gm_drive *d, int p, gm_real sign, const gm_point *at)
+{
+    static const gm_value1 none = {0, 0, 0};
+    const gm_gear *gear = d->gear[p];
+    const int dir = gm_direction(sign);
+    const gm_real speed = sign * gear->ratio * at->m[GM_OUT];
+    if (gear->pin[dir].value == NULL) {
+        return none;
+    }
+    gm_value1 v = gm_cell1_at(&gear->pin[dir], 1 + (int)(gear - d->map->path[p].gears),
+                              &d->cache->pin[p][dir], gm_not_below_zero(speed));
+    v.value *= d->scale;
+    v.dx = speed < 0 ? 0 : d->scale * v.dx * sign * gear->ratio;
+    return v;
+}
+
+void gm_pin_terms(const gm_drive *d, const gm_solution *s, int p, gm_real sign_o,
+                  gm_point *at, gm_terms *t)
+{
+    const gm_real sigma = d->ratio[p] < 0 ? -sign_o : sign_o;
+    gm_path_terms *path = &t->path[p];
+    gm_value1 v = pin_at(d, p, s->sign[p], at);
+    if (s->held[p]) {
+        at->tau_m[p] = d->tau[p] + (p == 0 ? -t->coupling : t->coupling);
+    } else {
+        path->drag = s->sign[p] * v.value;
+        path->drag_o = s->sign[p] * v.dx;
+        at->tau_m[p] = at->spring[p] + path->drag;
+    }
+    t->outside |= v.outside;
+    if (sigma * s->sign[p] < 0) {
+        v = pin_at(d, p, sigma, at);
+        t->outside |= v.outside;
+    }
+    path->pin = v.value;
+    path->pin_o = v.dx;
+}
+
+void gm_pin_friction(const gm_drive *d, int p, gm_real sign, const gm_point *at,
+                     gm_terms *t)
+{
+    const gm_value1 v = pin_at(d, p, sign, at);
+    t->path[p].drag = sign * v.value;
 }
 
 void gm_terms_at(const gm_drive *d, gm_solution *s, gm_point *at)
@@ -110,6 +164,9 @@ void gm_terms_at(const gm_drive *d, gm_solution *s, gm_point *at)
     for (int p = 0; p < d->n_paths; p++) {
         const gm_real tau = d->tau[p] + (p == 0 ? -c : c);
         at->tau_m[p] = tau - d->inertia[p] * d->ratio[p] * at->a[GM_OUT];
+        if (d->elastic[p]) {
+            gm_pin_terms(d, s, p, s->sign[GM_OUT], at, t);
+        }
         if (d->free[p] && !s->held[p]) {
             gm_drag_terms(d, p, s->sign[p], s->sign[GM_OUT], at, t);
         }
@@ -158,10 +215,11 @@ static int output_holds(const gm_drive *d, const gm_solution *s, const gm_point 
     }
     for (int p = 0; p < d->n_paths; p++) {
         const gm_real sign = d->ratio[p] < 0 ? -sign_o : sign_o;
+        const gm_real r = sign * d->ratio[p];
         if (d->engaged[p] &&
-            !gm_cell2_holds(&d->cache->load_loss[p][gm_direction(sign)], sign * at->m[p],
-                            sign * at->tau_m[p], sign * to->m[p], sign * to->tau_m[p],
-                            s->terms.path[p].load)) {
+            !gm_cell2_holds(&d->cache->load_loss[p][gm_direction(sign)],
+                            r * at->m[GM_OUT], sign * at->tau_m[p], r * to->m[GM_OUT],
+                            sign * to->tau_m[p], s->terms.path[p].load)) {
             return 0;
         }
     }
@@ -184,6 +242,25 @@ static int coupling_holds(const gm_drive *d, gm_solution *s, const gm_point *at,
                     slip + s->lead * gm_parting(d, to));
 }
 
+/* Speeds beyond rest are not told apart from those below the first node. */
+static int pin_holds(const gm_drive *d, gm_real sign, int p, const gm_point *at,
+                     const gm_point *to)
+{
+    const int dir = gm_direction(sign);
+    const gm_cell1 *c = &d->cache->pin[p][dir];
+    const gm_real r = sign * d->ratio[p];
+    return d->gear[p]->pin[dir].value == NULL ||
+           gm_stays(c->x_low, c->x_high, r * at->m[GM_OUT], r * to->m[GM_OUT]);
+}
+
+static int pins_hold(const gm_drive *d, const gm_solution *s, int p, const gm_point *at,
+                     const gm_point *to)
+{
+    const gm_real sigma = d->ratio[p] < 0 ? -s->sign[GM_OUT] : s->sign[GM_OUT];
+    return pin_holds(d, s->sign[p], p, at, to) &&
+           (sigma * s->sign[p] > 0 || s->held[GM_OUT] || pin_holds(d, sigma, p, at, to));
+}
+
 int gm_terms_hold(const gm_drive *d, gm_solution *s, const gm_point *at,
                   const gm_point *to)
 {
@@ -194,6 +271,9 @@ int gm_terms_hold(const gm_drive *d, gm_solution *s, const gm_point *at,
         return 0;
     }
     for (int p = 0; p < d->n_paths; p++) {
+        if (d->elastic[p] && !pins_hold(d, s, p, at, to)) {
+            return 0;
+        }
         if (d->free[p] && !s->held[p] && !gm_drag_holds(d, s, p, at, to)) {
             return 0;
         }

@@ -40,6 +40,10 @@ hand_spec hand_default(void)
         .c0 = 0.1,
         .c1 = 2e-4,
         .c_width = 20.0,
+        .stiffness = {2e4, 3e4},
+        .damping = {2.0, 3.0},
+        .lash = {5e-3, 4e-3},
+        .pin_part = 0.2,
         .speed_max = 100.0,
         .torque_max = 250.0,
         .roughness = 0,
@@ -91,6 +95,11 @@ hand_spec hand_random_spec(unsigned *seed)
     s.j0 = hand_between(seed, 0, 0.1);
     s.c0 = hand_between(seed, 0, 0.3);
     s.c_width = hand_between(seed, 0.5, 40);
+    s.stiffness[0] = hand_between(seed, 3e3, 1e5);
+    s.stiffness[1] = hand_between(seed, 3e3, 1e5);
+    s.damping[0] = hand_between(seed, 0, 20);
+    s.lash[0] = hand_between(seed, 0, 0.02);
+    s.pin_part = hand_between(seed, 0, 0.25);
     s.roughness = 1 + (unsigned)(1e6 * hand_random(seed));
     return s;
 }
@@ -163,6 +172,9 @@ static void fill_gear(const hand_spec *s, int p, int g, unsigned *seed, hand_map
     gm_gear *gear = &m->gear[p][g];
     gear->number = s->number[p][g];
     gear->ratio = s->ratio[p][g];
+    gear->stiffness = s->stiffness[p];
+    gear->damping = s->damping[p];
+    gear->lash = s->lash[p];
     for (int dir = 0; dir < 2; dir++) {
         for (int i = 0; i < HAND_W; i++) {
             const double factor =
@@ -173,6 +185,13 @@ static void fill_gear(const hand_spec *s, int p, int g, unsigned *seed, hand_map
                                         fabs(y) * (y < 0 ? s->overrun : 1);
             }
         }
+        for (int i = 0; i < HAND_W; i++) {
+            const double r = fabs(gear->ratio);
+            m->pin[p][g][dir][i] =
+                s->pin_part / r *
+                (s->p0[gear->ratio < 0 ? 1 - dir : dir] + s->p1 * m->w_p[i] / r);
+        }
+        gear->pin[dir] = (gm_table1){{HAND_W, m->w_p}, m->pin[p][g][dir]};
         gear->load_loss[dir] =
             (gm_table2){{HAND_W, m->w_p}, {HAND_T, m->torque}, m->d[p][g][dir][0]};
     }
@@ -279,6 +298,20 @@ double hand_kinetic(const hand_map *m, const gm_reduced_state *s)
     double sum = m->map.inertia_output * s->w_o * s->w_o / 2;
     for (int p = 0; p < m->map.n_paths; p++) {
         sum += m->map.path[p].inertia * s->path[p].w * s->path[p].w / 2;
+    }
+    return sum;
+}
+
+double hand_energy(const hand_map *m, const gm_reduced_params *params,
+                   const gm_reduced_state *s)
+{
+    double sum = hand_kinetic(m, s);
+    for (int p = 0; p < m->map.n_paths; p++) {
+        if (params->fidelity == GM_LASH && s->path[p].mode == GM_PATH_ENGAGED) {
+            const gm_gear *gear = &m->gear[p][s->path[p].gear];
+            const double e = fmax(0, fabs(s->path[p].twist) - gear->lash / 2);
+            sum += gear->stiffness * e * e / 2;
+        }
     }
     return sum;
 }

@@ -7,6 +7,7 @@
  *   X  = x |y_0 y_1| / torque_max
  *   N  = sgn(w_n) n0[dir] + n1 w_n + k (w_n - r_k w_o)     R = -r_k k w_n
  *   lines: jump = j0 + j1 |w_o| for every gear of the path
+ *   pin = pin_part / |r| (p0 + p1 |w_p / r|): a share of P brakes the input side
  *   C  = c0 sat((w_0 - w_1)/c_width) + c1 (w_0 - w_1)
  *
  * All are piecewise linear with kinks at nodes (but for w |y| terms, which are bilinear),
@@ -30,6 +31,7 @@ typedef struct hand_spec {
     double n0[2], n1, k, r_k;
     double j0, j1;
     double c0, c1, c_width;
+    double stiffness[2], damping[2], lash[2], pin_part;
     double speed_max,
         torque_max;     /* of the output, of a path; path speeds go 20 x higher */
     unsigned roughness; /* seed: node values of P and D vary by up to 50 %; 0: no */
@@ -45,6 +47,7 @@ typedef struct hand_map {
     double p[HAND_CONFIGURATIONS][2][HAND_W];
     double d[2][HAND_GEARS][2][HAND_W][HAND_T];
     double n[2][2][2][HAND_W][HAND_W], r[2][2][2][HAND_W][HAND_W];
+    double pin[2][HAND_GEARS][2][HAND_W];
     double jump[HAND_W], c[HAND_C], both[HAND_X][HAND_X][HAND_X];
 } hand_map;
 
@@ -69,6 +72,10 @@ gm_reduced_inputs hand_inputs(int gear_0, int gear_1);
 
 /** Kinetic energy straight from the speeds and inertias. */
 double hand_kinetic(const hand_map *m, const gm_reduced_state *s);
+
+/** The same and what the twisted paths hold. */
+double hand_energy(const hand_map *m, const gm_reduced_params *params,
+                   const gm_reduced_state *s);
 
 /** Small deterministic generator: uniform in [0, 1). */
 double hand_random(unsigned *seed);

@@ -61,7 +61,7 @@ static gm_path_terms terms_at(int p, double sign_n, double w_n, double w_o)
     gm_motion motion = {0};
     gm_drive d;
     gm_terms t;
-    gm_point at = {{0}, {0}, {0}};
+    gm_point at = {{0}, {0}, {0}, {0}};
     gm_make_drive(&m.map, &params, &motion, &cache, &d);
     memset(&t, 0, sizeof t);
     at.m[p] = w_n;

@@ -1,0 +1,235 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The spring with backlash between an engaged path and the output, fidelity lash. Twist
+ * theta, slip s = dtheta/dt, compression e = max(0, |theta| - lash/2) of the flank that
+ * carries:
+ *
+ *   T = sgn(theta) [F + limited(d s sgn(theta), F)]      F = k e,   limited to -F .. F
+ *
+ * The damper is limited to the spring's torque, so that contact enters without a jump and
+ * never pulls (law of Modelica.Mechanics.Rotational.Components.ElastoBacklash, Modelica
+ * Standard Library 4).
+ *
+ * Over a sub-step of h from theta to theta + h s, F is the mean over the way, [U(theta +
+ * h s) - U(theta)] / (h s) with U = k e^2/2: what the spring takes is exactly what it
+ * stores, also when contact closes or opens on the way or the whole lash is crossed.
+ * (Energy-momentum method: O. Gonzalez, J. Nonlinear Sci. 6 (1996) 449-467.) In sub-
+ * steps that are too long for the vibration the part late of F is taken at their end, as
+ * mean speeds are; what that costs is the vibration's energy: late (k e+ h s - U+ + U)
+ * >= 0.
+ */
+#include "reduced_parts.h"
+
+/* One flank over the way: compressions at its two ends, the way into the contact. */
+typedef struct flank {
+    gm_real e, e_end, way;
+} flank;
+
+static flank flank_of(gm_real half_lash, gm_real twist, gm_real way)
+{
+    const flank f = {gm_not_below_zero(twist - half_lash),
+                     gm_not_below_zero(twist + way - half_lash), way};
+    return f;
+}
+
+/* Mean of k e over the way, and its derivative to the way. */
+static gm_real mean_force(const flank *f, gm_real k, gm_real *slope)
+{
+    gm_real force;
+    if (f->e > 0 && f->e_end > 0) {
+        *slope = k / 2;
+        return k / 2 * (f->e + f->e_end);
+    }
+    if (f->e_end > 0) {
+        force = k / 2 * f->e_end * (f->e_end / f->way);
+        *slope = (k * f->e_end - force) / f->way;
+        return force;
+    }
+    force = -k / 2 * f->e * (f->e / f->way);
+    *slope = -force / f->way;
+    return force;
+}
+
+/* Add the flank that is loaded where sign * twist > 0. */
+static void add_flank(const gm_gear *gear, const gm_stride *stride, const flank *f,
+                      gm_real sign, gm_spring *t)
+{
+    const gm_real k = gear->stiffness, late = stride->late, in = sign * stride->slip;
+    gm_real slope, force = mean_force(f, k, &slope), damper = gear->damping * in;
+    const gm_real of_slip = gear->damping;
+    force += late * (k * f->e_end - force);
+    slope += late * ((f->e_end > 0 ? k : 0) - slope);
+    slope *= stride->h;
+    if (damper >= force) {
+        damper = force;
+        t->slope += 2 * slope;
+    } else if (damper <= -force) {
+        damper = -force;
+    } else {
+        t->slope += slope + of_slip;
+    }
+    t->torque += sign * (force + damper);
+    t->power += damper * in;
+    if (late > 0) {
+        const gm_real stored = k / 2 * (f->e_end - f->e) * (f->e_end + f->e);
+        t->power += late * (k * f->e_end * f->way - stored) / stride->h;
+    }
+}
+
+gm_spring gm_spring_at(const gm_gear *gear, gm_real twist, const gm_stride *stride)
+{
+    const gm_real half = gear->lash / 2, way = stride->h * stride->slip;
+    const flank up = flank_of(half, twist, way), down = flank_of(half, -twist, -way);
+    gm_spring t = {0, 0, 0};
+    if (up.e > 0 || up.e_end > 0) {
+        add_flank(gear, stride, &up, 1, &t);
+    }
+    if (down.e > 0 || down.e_end > 0) {
+        add_flank(gear, stride, &down, -1, &t);
+    }
+    return t;
+}
+
+gm_real gm_spring_energy(const gm_gear *gear, gm_real twist)
+{
+    const gm_real e = gm_not_below_zero(gm_abs(twist) - gear->lash / 2);
+    return gear->stiffness / 2 * e * e;
+}
+
+/* ---- springs and slips together ----
+ *
+ * Looked for are torques T_u with T_u = T(free - y (T_u - reference)). T is monotone and
+ * y positive (semi)definite but for the small effect of losses, so this is the minimum
+ * of a convex function of the slips. Newton's method with a search along the line finds
+ * it: the directional derivative psi = sum delta (T - T_u), delta the change of the
+ * slips, must not have become large on the other side. Within one straight piece of T
+ * the first Newton step is the solution. */
+
+enum { GM_MEETINGS = 24, GM_LINE_TRIALS = 12 };
+
+#define CLOSE 1e-11    /* relative, of a spring's torque */
+#define CLOSE_NM 1e-10 /* N.m */
+
+typedef struct meeting {
+    gm_real slip[GM_MAX_PATHS], used[GM_MAX_PATHS]; /* slips, the torques behind them */
+    gm_spring spring[GM_MAX_PATHS];                 /* at these slips */
+} meeting;
+
+static void read_springs(const gm_drive *d, meeting *m)
+{
+    static const gm_spring none = {0, 0, 0};
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        const gm_stride stride = {d->h, m->slip[p], d->late};
+        m->spring[p] =
+            d->elastic[p] ? gm_spring_at(d->gear[p], d->twist[p], &stride) : none;
+    }
+}
+
+static int is_met(const meeting *m)
+{
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        if (gm_abs(m->spring[p].torque - m->used[p]) >
+            CLOSE * gm_abs(m->used[p]) + CLOSE_NM) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* (1 + T' y) x = right, with the slopes of the springs in *m */
+static void solve_pair(const gm_yield *yield, const meeting *m,
+                       const gm_real right[GM_MAX_PATHS], gm_real x[GM_MAX_PATHS])
+{
+    const gm_real *y_0 = yield->y[0], *y_1 = yield->y[1];
+    const gm_real g_0 = m->spring[0].slope, g_1 = m->spring[1].slope;
+    const gm_real k_00 = 1 + g_0 * y_0[0], k_01 = g_0 * y_0[1];
+    const gm_real k_10 = g_1 * y_1[0], k_11 = 1 + g_1 * y_1[1];
+    const gm_real f = k_10 / k_00;
+    x[1] = (right[1] - f * right[0]) / (k_11 - f * k_01);
+    x[0] = (right[0] - k_01 * x[1]) / k_00;
+}
+
+static void yield_to(const gm_yield *yield, const gm_real torque[GM_MAX_PATHS],
+                     gm_real slip[GM_MAX_PATHS])
+{
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        slip[p] = -yield->y[p][0] * torque[0] - yield->y[p][1] * torque[1];
+    }
+}
+
+/* *to: the part t of the way from *from. Returns psi there. */
+static gm_real go(const gm_drive *d, const meeting *from,
+                  const gm_real slip[GM_MAX_PATHS], const gm_real torque[GM_MAX_PATHS],
+                  gm_real t, meeting *to)
+{
+    gm_real psi = 0;
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        to->slip[p] = from->slip[p] + t * slip[p];
+        to->used[p] = from->used[p] + t * torque[p];
+    }
+    read_springs(d, to);
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        psi += slip[p] * (to->spring[p].torque - to->used[p]);
+    }
+    return psi;
+}
+
+/* One Newton step, shortened while it goes too far (regula falsi, Illinois). */
+static void newton_step(const gm_drive *d, const gm_yield *yield, meeting *m)
+{
+    const meeting from = *m;
+    gm_real error[GM_MAX_PATHS], torque[GM_MAX_PATHS], slip[GM_MAX_PATHS];
+    gm_real low = 0, high = 1, psi_low = 0;
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        error[p] = from.spring[p].torque - from.used[p];
+    }
+    solve_pair(yield, &from, error, torque);
+    yield_to(yield, torque, slip);
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        psi_low += slip[p] * error[p];
+    }
+    const gm_real close = -psi_low / 4;
+    gm_real psi_high = go(d, &from, slip, torque, 1, m), psi = psi_high;
+    for (int i = 0; i < GM_LINE_TRIALS && (psi > close || psi < -close); i++) {
+        if (psi_high <= 0) {
+            return; /* not far enough, but on the way */
+        }
+        const gm_real t = low + (high - low) * (psi_low / (psi_low - psi_high));
+        psi = go(d, &from, slip, torque, t, m);
+        if (psi > 0) {
+            high = t;
+            psi_high = psi;
+            psi_low /= 2;
+        } else {
+            low = t;
+            psi_low = psi;
+            psi_high /= 2;
+        }
+    }
+}
+
+void gm_springs_meet(const gm_drive *d, const gm_yield *yield, gm_real slip[GM_MAX_PATHS],
+                     gm_real torque[GM_MAX_PATHS])
+{
+    meeting m = {{slip[0], slip[1]}, {torque[0], torque[1]}, {{0, 0, 0}, {0, 0, 0}}};
+    gm_real error[GM_MAX_PATHS], more[GM_MAX_PATHS], moved[GM_MAX_PATHS];
+    read_springs(d, &m);
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        error[p] = m.spring[p].torque - torque[p] +
+                   m.spring[p].slope * (yield->free[p] - slip[p]);
+    }
+    solve_pair(yield, &m, error, more);
+    yield_to(yield, more, moved);
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        m.slip[p] = yield->free[p] + moved[p];
+        m.used[p] = torque[p] + more[p];
+    }
+    read_springs(d, &m);
+    for (int i = 0; i < GM_MEETINGS && !is_met(&m); i++) {
+        newton_step(d, yield, &m);
+    }
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        slip[p] = m.slip[p];
+        torque[p] = m.used[p];
+    }
+}
