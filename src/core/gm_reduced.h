@@ -177,13 +177,13 @@ typedef struct gm_drag_patch {
 } gm_drag_patch;
 
 /** Interpolation caches: no influence on results. Zeroed memory is an empty cache.
- *  Directions as in the map's tables. */
+ *  Directions as in the map's tables, but for cells that are shared by all of them. */
 typedef struct gm_reduced_cache {
     gm_cell1 coupling, parasitic[2], pin[GM_MAX_PATHS][2];
-    gm_cell1 line[GM_MAX_PATHS][2][GM_CACHED_LINES];
+    gm_cell1 line[GM_MAX_PATHS][GM_CACHED_LINES];
     gm_cell2 load_loss[GM_MAX_PATHS][2];
-    gm_cell2 drag[GM_MAX_PATHS][2][2], reaction[GM_MAX_PATHS][2][2];
-    gm_drag_patch patch[GM_MAX_PATHS][2]; /* by direction of w_n */
+    gm_cell2 drag[GM_MAX_PATHS], reaction[GM_MAX_PATHS]; /* of the last quadrant */
+    gm_drag_patch patch[GM_MAX_PATHS][2];                /* by direction of w_n */
     gm_cell3 both_loaded[2];
 } gm_reduced_cache;
 

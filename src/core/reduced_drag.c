@@ -37,13 +37,19 @@ static place place_of(int p, gm_real sign_n, gm_real sign_o, const gm_point *at)
     return q;
 }
 
+/* Number of the tables of a quadrant: their cells are shared by the four. */
+static int quadrant(const place *q)
+{
+    return 1 + 2 * q->i + q->j;
+}
+
 static gm_value1 line_jump(const gm_drive *d, int p, int line, const place *q,
                            gm_cell1 *copy)
 {
     const gm_table1 *jump = &d->map->path[p].lines[line].jump[q->j];
     gm_cell1 local = {0, 0, 0, 0, 0};
-    gm_cell1 *cell = line < GM_CACHED_LINES ? &d->cache->line[p][q->j][line] : &local;
-    const gm_value1 v = gm_cell1_at(jump, 1, cell, q->y);
+    gm_cell1 *cell = line < GM_CACHED_LINES ? &d->cache->line[p][line] : &local;
+    const gm_value1 v = gm_cell1_at(jump, 1 + q->j, cell, q->y);
     *copy = *cell;
     return v;
 }
@@ -57,7 +63,7 @@ static int on_ramp(gm_real slip)
 
 static int in_patch(const gm_drag_patch *c, const place *q)
 {
-    return c->key == 1 + 2 * q->i + q->j && q->x >= c->x_low && q->x < c->x_high &&
+    return c->key == quadrant(q) && q->x >= c->x_low && q->x < c->x_high &&
            q->y >= c->y_low && q->y < c->y_high &&
            (!c->any_above || q->w - c->ratio_above * q->w_o >= GM_LINE_WIDTH) &&
            (!c->any_below || q->w - c->ratio_below * q->w_o <= -GM_LINE_WIDTH) &&
@@ -145,14 +151,14 @@ static int fill_patch(const gm_drive *d, int p, const place *q, gm_drag_patch *c
     const gm_path *path = &d->map->path[p];
     static const gm_drag_patch empty = {0};
     gm_drag_patch made = empty;
-    gm_cell2 *n = &d->cache->drag[p][q->i][q->j], *r = &d->cache->reaction[p][q->i][q->j];
+    gm_cell2 *n = &d->cache->drag[p], *r = &d->cache->reaction[p];
     gm_cell1 jump;
     made.x_high = made.y_high = GM_UNBOUNDED;
     if (!sort_lines(path, q, &made)) {
         return 0;
     }
-    gm_cell2_at(&path->drag[q->i][q->j], 1, n, q->x, q->y);
-    gm_cell2_at(&path->reaction[q->i][q->j], 1, r, q->x, q->y);
+    gm_cell2_at(&path->drag[q->i][q->j], quadrant(q), n, q->x, q->y);
+    gm_cell2_at(&path->reaction[q->i][q->j], quadrant(q), r, q->x, q->y);
     if (!narrow(n, q, &made) || !narrow(r, q, &made)) {
         return 0;
     }
@@ -168,7 +174,7 @@ static int fill_patch(const gm_drive *d, int p, const place *q, gm_drag_patch *c
         line_jump(d, p, i, q, &jump);
         add_line_to_patch(&jump, path->lines[i].ratio, q, &made);
     }
-    made.key = 1 + 2 * q->i + q->j;
+    made.key = quadrant(q);
     *c = made;
     return 1;
 }
@@ -249,10 +255,10 @@ static void add_all(const gm_drive *d, int p, const place *q, gm_real sign_n,
     const gm_path *path = &d->map->path[p];
     const gm_real scale = d->scale;
     gm_path_terms *terms = &t->path[p];
-    const gm_value2 n = gm_cell2_at(&path->drag[q->i][q->j], 1,
-                                    &d->cache->drag[p][q->i][q->j], q->x, q->y);
-    const gm_value2 r = gm_cell2_at(&path->reaction[q->i][q->j], 1,
-                                    &d->cache->reaction[p][q->i][q->j], q->x, q->y);
+    const gm_value2 n =
+        gm_cell2_at(&path->drag[q->i][q->j], quadrant(q), &d->cache->drag[p], q->x, q->y);
+    const gm_value2 r = gm_cell2_at(&path->reaction[q->i][q->j], quadrant(q),
+                                    &d->cache->reaction[p], q->x, q->y);
     terms->drag = scale * n.value;
     terms->drag_n = scale * sign_n * n.dx;
     terms->drag_o = scale * sign_o * n.dy;
@@ -318,7 +324,7 @@ static int lines_hold(const gm_drive *d, int p, unsigned ramps, const place *q,
     unsigned now = 0;
     for (int i = 0; i < path->n_lines; i++) {
         const gm_real r = path->lines[i].ratio;
-        const gm_cell1 *c = &d->cache->line[p][q->j][i < GM_CACHED_LINES ? i : 0];
+        const gm_cell1 *c = &d->cache->line[p][i < GM_CACHED_LINES ? i : 0];
         now = 16 * now + 4 * side_of(to->w - r * to->w_o) + side_of(r * to->w_o);
         if (!gm_stays(c->x_low, c->x_high, q->y, to->y)) {
             return 0;
@@ -340,8 +346,7 @@ int gm_drag_holds(const gm_drive *d, const gm_solution *s, int p, const gm_point
     if (t->patched) {
         return patch_holds(&d->cache->patch[p][q.i], &q, &to, t);
     }
-    return gm_cell2_holds(&d->cache->drag[p][q.i][q.j], q.x, q.y, to.x, to.y, t->drag) &&
-           gm_cell2_holds(&d->cache->reaction[p][q.i][q.j], q.x, q.y, to.x, to.y,
-                          t->reaction) &&
+    return gm_cell2_holds(&d->cache->drag[p], q.x, q.y, to.x, to.y, t->drag) &&
+           gm_cell2_holds(&d->cache->reaction[p], q.x, q.y, to.x, to.y, t->reaction) &&
            lines_hold(d, p, t->ramps, &q, &to);
 }
