@@ -43,9 +43,9 @@ static gm_status check_surfaces(const gm_description *d, const gm_clutch *c,
                                 gm_error *error)
 {
     int given = !isnan(c->inner_radius) + !isnan(c->outer_radius) + !isnan(c->clearance);
-    if (c->surfaces == 0 && given > 0)
+    if (c->surfaces == 0 && (given > 0 || !isnan(c->feed)))
         return gm_part_fail(d, "clutch", &c->id, error,
-                            "radii and clearance have an effect only with "
+                            "radii, clearance and oil feed have an effect only with "
                             "friction_surfaces, found 0 of them");
     if (c->surfaces > 0 && given < 3)
         return gm_part_fail(d, "clutch", &c->id, error,

@@ -13,8 +13,15 @@
  * Oil films in gaps, Petroff 1883: T = 2 pi eta w r^3 L / c, for c much less than r and
  * laminar flow (w r c / nu below about 1000).
  *
- * Open wet clutches and brakes, n gaps with a full film: the same shear stress
- * eta w r / h over discs, T = n pi eta w (r_o^4 - r_i^4) / (2 h).
+ * Open wet clutches and brakes, n gaps: the same shear stress eta w r / h over discs,
+ * T = n pi eta w (r_e^4 - r_i^4) / (2 h). One plate turns, the other stands; laminar flow
+ * without a pressure difference carries
+ *   Q = n pi rho w^2 h^3 (r_o^2 - r_i^2) / (40 eta ln (r_o/r_i))
+ * outwards when the gaps are full (0 = -dp/dr + rho r w^2 (z/h)^2 + eta d2u/dz2). With
+ * less feed the films shrink: r_e^2 - r_i^2 = (feed/Q) (r_o^2 - r_i^2), the effective
+ * radius of Kitabayashi, Li and Hiraki, SAE 2003-01-1973, and Yuan et al., J. Fluids Eng.
+ * 129 (2007). Drag is largest where feed = Q and falls with about 1/w beyond. Not in it:
+ * droplets and touching plates at very high slip.
  *
  * Gears in the oil bath, Changenet and Velex, "A Model for the Prediction of Churning
  * Losses in Geared Transmissions", J. Mech. Des. 129 (2007):
@@ -68,11 +75,27 @@ gm_speed_torque gm_petroff_torque(double r, double L, double c, const gm_oil *oi
     return (gm_speed_torque){slope * w, slope};
 }
 
-gm_speed_torque gm_clutch_drag(int n, double r_i, double r_o, double h, const gm_oil *oil,
-                               double w)
+double gm_plates_full_slip(const gm_plates *plates, const gm_oil *oil)
 {
-    double k = 0.5 * n * GM_PI * oil->eta * (pow(r_o, 4.) - pow(r_i, 4.)) / h;
-    return (gm_speed_torque){k * w, k};
+    double h = plates->h, A = plates->r_o * plates->r_o - plates->r_i * plates->r_i;
+    double flow = plates->n * GM_PI * oil->rho * h * h * h * A /
+                  (40. * oil->eta * log(plates->r_o / plates->r_i));
+    return sqrt(plates->feed / flow);
+}
+
+/* With the wet part wet = r_e^2 - r_i^2: T = k w wet (wet + 2 r_i^2); beyond full films
+ * wet ~ 1/w^2. */
+gm_speed_torque gm_plates_drag(const gm_plates *plates, const gm_oil *oil, double w)
+{
+    double r_i2 = plates->r_i * plates->r_i, wet = plates->r_o * plates->r_o - r_i2;
+    double k = 0.5 * plates->n * GM_PI * oil->eta / plates->h;
+    double full = gm_plates_full_slip(plates, oil);
+    if (w <= full)
+        return (gm_speed_torque){k * w * wet * (wet + 2. * r_i2),
+                                 k * wet * (wet + 2. * r_i2)};
+    wet *= full / w * (full / w);
+    return (gm_speed_torque){k * w * wet * (wet + 2. * r_i2),
+                             -k * wet * (3. * wet + 2. * r_i2)};
 }
 
 /* S_m */

@@ -20,11 +20,20 @@ gm_speed_torque gm_seal_torque(gm_seal_model model, double d, const gm_oil *oil,
 gm_speed_torque gm_petroff_torque(double r, double L, double c, const gm_oil *oil,
                                   double w);
 
-/** Friction surfaces of an open wet clutch or brake, n of them, r_i < r_o and clearance h
- *  each [m]: full oil film, n pi eta w (r_o^4 - r_i^4) / (2 h). At high slip the film
- *  shrinks, so this is an upper bound there. */
-gm_speed_torque gm_clutch_drag(int n, double r_i, double r_o, double h, const gm_oil *oil,
-                               double w);
+/** Gaps of an open wet clutch or brake: n of them, radii r_i < r_o, clearance h [m], oil
+ *  fed to all of them [m3/s; INFINITY: they stay full at any speed]. */
+typedef struct gm_plates {
+    int n;
+    double r_i, r_o, h, feed;
+} gm_plates;
+
+/** Drag of the oil films at slip w, n pi eta w (r_e^4 - r_i^4) / (2 h): r_e = r_o while
+ *  the feed fills the gaps, less when they throw out more than that. */
+gm_speed_torque gm_plates_drag(const gm_plates *plates, const gm_oil *oil, double w);
+
+/** Slip up to which the feed fills the gaps, where drag is largest [rad/s]; INFINITY when
+ *  they stay full. */
+double gm_plates_full_slip(const gm_plates *plates, const gm_oil *oil);
 
 /** A gear in the oil bath: pitch radius R_p, face width b, immersion depth h, volume V_0
  *  of the bath [m, m3], R_p, b and V_0 > 0. */

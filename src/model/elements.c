@@ -26,8 +26,7 @@ gm_speed_torque gm_drag_torque(const gm_gearset *gearset, const gm_drag_element 
     case GM_DRAG_GAP:
         return gm_petroff_torque(drag->radius, drag->length, drag->clearance, oil, w);
     case GM_DRAG_CLUTCH:
-        return gm_clutch_drag(drag->surfaces, drag->inner_radius, drag->radius,
-                              drag->clearance, oil, w);
+        return gm_plates_drag(&drag->plates, oil, w);
     case GM_DRAG_CHURNING:
         return gm_churning_torque(&drag->dip, oil, w);
     }

@@ -266,6 +266,15 @@ static void add_cones(gm_gearset *gearset)
     }
 }
 
+static gm_plates gap_of(const gm_clutch *clutch)
+{
+    return (gm_plates){.n = clutch->surfaces,
+                       .r_i = clutch->inner_radius,
+                       .r_o = clutch->outer_radius,
+                       .h = clutch->clearance,
+                       .feed = isnan(clutch->feed) ? (double)INFINITY : clutch->feed};
+}
+
 /* A closed clutch has no relative speed and so no drag. */
 static void add_clutches(gm_gearset *gearset)
 {
@@ -278,10 +287,7 @@ static void add_clutches(gm_gearset *gearset)
                                   .body = d->clutches[i].shaft,
                                   .on = d->clutches[i].on,
                                   .law = GM_DRAG_CLUTCH,
-                                  .radius = d->clutches[i].outer_radius,
-                                  .clearance = d->clutches[i].clearance,
-                                  .surfaces = d->clutches[i].surfaces,
-                                  .inner_radius = d->clutches[i].inner_radius};
+                                  .plates = gap_of(&d->clutches[i])};
 }
 
 static void add_churning(gm_gearset *gearset)

@@ -77,9 +77,8 @@ typedef struct gm_drag_element {
     int body, on;
     gm_drag_law law;
     gm_seal_model seal;
-    double radius, length, clearance; /* seal: radius only; clutch: outer radius */
-    int surfaces;                     /* of a clutch */
-    double inner_radius;
+    double radius, length, clearance; /* seal: radius only */
+    gm_plates plates;                 /* of a clutch */
     gm_dip dip;
 } gm_drag_element;
 

@@ -214,6 +214,7 @@ typedef struct gm_clutch {
     double inner_radius, outer_radius; /* m */
     double clearance;                  /* of one open gap, m */
     gm_flanks closed;                  /* what gives way when it is closed */
+    double feed; /* oil fed to its gaps, m3/s; NAN: they stay full */
 } gm_clutch;
 
 /** What a gear of a path locks. */

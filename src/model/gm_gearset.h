@@ -48,8 +48,8 @@ GM_NODISCARD gm_status gm_gearset_kinematics(const gm_gearset *gearset, const in
 double gm_gearset_sync_torque(const gm_gearset *gearset, int p);
 
 /** Speeds of path p in gear `number` [rad/s, ascending, at most n_max] at which the
- *  sliding speed of a loaded mesh leaves boundary friction: kinks of the loss. Returns
- *  their number. */
+ *  sliding speed of a loaded mesh leaves boundary friction or the film of an open clutch
+ *  begins to shrink: kinks of the loss. Returns their number. */
 int gm_gearset_kink_speeds(const gm_gearset *gearset, int p, int number, int n_max,
                            double *speed);
 

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
  * Where losses have kinks and drags jump, so that axes can have nodes there: speeds and
- * torques at which a loaded mesh changes its friction regime, and the ratios of speeds at
- * which a bearing between a path and the output stands still.
+ * torques at which a loaded mesh changes its friction regime, speeds at which the oil
+ * films of open clutches begin to shrink, and the ratios of speeds at which a bearing
+ * between a path and the output stands still.
  */
 #include "model/gearset.h"
 
@@ -71,10 +72,40 @@ int gm_gearset_kink_torques(const gm_gearset *gearset, int p, int number, int n_
     return find_kinks(gearset, p, number, least_line_load, n_max, torque);
 }
 
+/* Speeds of path p in gear `number` at which films of open clutches begin to shrink. */
+static int ends_of_full_films(const gm_gearset *gearset, int p, int number, int n_max,
+                              double *found)
+{
+    int gear[GM_MAX_INPUT_PATHS], count = 0;
+    gm_configuration_rows rows;
+    gm_rest_gears(gearset->description, gear);
+    gear[p] = number;
+    if (gm_configuration_rows_make(gearset, gear, &rows, NULL) != GM_OK)
+        return 0;
+    const double *w = rows.speed_of;
+    int n = rows.n_independent;
+    double ratio = w[gm_flange_body(gearset, 1 + p) * n];
+    for (int i = 0; i < gearset->n_drags && count < n_max; i++) {
+        const gm_drag_element *drag = &gearset->drags[i];
+        if (drag->law != GM_DRAG_CLUTCH)
+            continue;
+        double on = drag->on == GM_HOUSING ? 0.0 : w[drag->on * n];
+        double slip = fabs((w[drag->body * n] - on) / ratio);
+        double full = gm_plates_full_slip(&drag->plates, &gearset->oil);
+        if (slip > 1e-9 && isfinite(full)) /* open, and not by rounding */
+            found[count++] = full / slip;
+    }
+    gm_configuration_rows_clear(&rows);
+    return count;
+}
+
 int gm_gearset_kink_speeds(const gm_gearset *gearset, int p, int number, int n_max,
                            double *speed)
 {
-    return find_kinks(gearset, p, number, end_of_boundary_friction, n_max, speed);
+    int n = find_kinks(gearset, p, number, end_of_boundary_friction, n_max, speed);
+    n += ends_of_full_films(gearset, p, number, n_max - n, speed + n);
+    sort_ascending(n, speed);
+    return n;
 }
 
 /* Add x to the ascending list unless it is there: equal but for rounding. */

@@ -37,6 +37,7 @@ static const gm_unit units[] = {
     {"_degC",    "degC",  273.15, 1.0,  1.0},
     {"_1_K",     "1/K",   0.0,    1.0,  1.0},
     {"_l",       "l",     0.0,    1.0,  1e3},
+    {"_l_min",   "l/min", 0.0,    1.0,  6e4},
 };
 
 #define OWNER gm_description

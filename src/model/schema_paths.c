@@ -54,6 +54,9 @@ static const gm_field clutch_fields[] = {
      .help = "between its two sides while it is closed"},
     {NUMBER("damping_ratio", 0, 2), AT(closed.damping_ratio), DEFAULT("0.1"),
      .help = "of both sides on that stiffness"},
+    {NUMBER("oil_feed_l_min", 0, 1000), AT(feed), OPTIONAL,
+     .help = "oil fed to its gaps: at high slip they throw out more and drag less; "
+             "without it they stay full at any slip"},
     END};
 const gm_section gm_schema_clutch = {
     .title = "clutches", .word = "clutch",

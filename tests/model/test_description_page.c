@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * What docs/description.md says beside the schema: its example is a gearset, and the
+ * What docs/description.md says beside the schema: its examples are gearsets, and the
  * names of bearings and series that it lists are those of the tables.
  */
 #include "description_fixture.h"
@@ -36,11 +36,8 @@ static char *between(const char *text, const char *begin, const char *end)
     return piece;
 }
 
-static void its_example_is_a_gearset(void **state)
+static void check_is_a_gearset(const char *example)
 {
-    (void)state;
-    char *page = gm_test_slurp(PAGE);
-    char *example = between(page, "```yaml\n", "```\n");
     gm_error error = {GM_OK, ""};
     gm_gearset *gearset = NULL;
     gm_test_spill(COPY, example);
@@ -51,7 +48,21 @@ static void its_example_is_a_gearset(void **state)
     assert_int_equal(d->paths[0].n_gears, 2);
     gm_gearset_destroy(gearset);
     gm_description_destroy(d);
-    free(example);
+}
+
+/* Both have two speeds. */
+static void its_examples_are_gearsets(void **state)
+{
+    (void)state;
+    char *page = gm_test_slurp(PAGE);
+    const char *begin = "```yaml\n";
+    int n = 0;
+    for (const char *at = page; (at = strstr(at, begin)); at += strlen(begin), n++) {
+        char *example = between(at, begin, "```\n");
+        check_is_a_gearset(example);
+        free(example);
+    }
+    assert_int_equal(n, 2);
     free(page);
 }
 
@@ -119,7 +130,7 @@ static void it_lists_the_catalogue(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(its_example_is_a_gearset),
+        cmocka_unit_test(its_examples_are_gearsets),
         cmocka_unit_test(it_lists_every_series),
         cmocka_unit_test(it_lists_the_catalogue),
     };

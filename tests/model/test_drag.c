@@ -48,6 +48,71 @@ static void petroff_gaps(void **state)
     assert_true(gm_petroff_torque(30e-3, 8e-3, 0.15e-3, &oil, 0.).value == 0.);
 }
 
+static const gm_plates plates = {
+    .n = 8, .r_i = 45e-3, .r_o = 60e-3, .h = 0.15e-3, .feed = INFINITY};
+static const gm_oil fluid = {.eta = 8e-3, .rho = 800.};
+
+static void full_films_of_a_clutch(void **state)
+{
+    (void)state;
+    gm_speed_torque T = gm_plates_drag(&plates, &fluid, 100.);
+    check_close("eight gaps", T.value, 0.5937610, 1e-6);
+    check_close("slope", T.d_speed, T.value / 100., 1e-14);
+    assert_true(gm_plates_drag(&plates, &fluid, 0.).value == 0.);
+}
+
+static double drag_of_slip(const void *data, double w)
+{
+    return gm_plates_drag(data, &fluid, w).value;
+}
+
+/* Slip at which drag is largest, by thirds. */
+static double slip_of_largest_drag(const gm_plates *p)
+{
+    double low = 1., high = 1000.;
+    while (high - low > 1e-9 * high) {
+        double a = low + (high - low) / 3., b = high - (high - low) / 3.;
+        if (drag_of_slip(p, a) < drag_of_slip(p, b))
+            low = a;
+        else
+            high = b;
+    }
+    return low;
+}
+
+/* Pressure in the gap, from the mean radial speed u = feed / (n 2 pi r h) at slip w:
+ * p' = 12 (rho r w^2 / 40 - eta u / h^2), integrated from the inner to the outer rim. */
+static double pressure_difference(const gm_plates *p, double w)
+{
+    double sum = 0., dr = (p->r_o - p->r_i) / 1000.;
+    for (int i = 0; i < 1000; i++) {
+        double r = p->r_i + (i + 0.5) * dr;
+        double u = p->feed / (p->n * 2. * GM_PI * r * p->h);
+        sum += 12. * (fluid.rho * r * w * w / 40. - fluid.eta * u / (p->h * p->h)) * dr;
+    }
+    return sum;
+}
+
+/* Drag is largest where the gaps throw out just what is fed, without any pressure from
+ * outside; from there it falls. */
+static void films_shrink_when_the_feed_is_thrown_out(void **state)
+{
+    (void)state;
+    gm_plates fed = plates;
+    fed.feed = 2e-3 / 60.;
+    double w = slip_of_largest_drag(&fed);
+    check_close("full slip", gm_plates_full_slip(&fed, &fluid), w, 1e-8);
+    assert_true(isinf(gm_plates_full_slip(&plates, &fluid)));
+    double scale = fluid.rho * w * w * fed.r_o * (fed.r_o - fed.r_i);
+    assert_true(fabs(pressure_difference(&fed, w)) <= 1e-6 * scale);
+    assert_true(drag_of_slip(&fed, 0.999 * w) == drag_of_slip(&plates, 0.999 * w));
+    assert_true(drag_of_slip(&fed, 4. * w) < 0.3 * drag_of_slip(&fed, w));
+    check_continuous("drag", drag_of_slip, &fed, 0.1 * w, 10. * w);
+    for (double x = 0.1; x < 10.; x *= 1.3)
+        check_slope("drag", drag_of_slip, &fed, x * w,
+                    gm_plates_drag(&fed, &fluid, x * w).d_speed);
+}
+
 static const gm_oil thin_oil = {.nu = 30e-6, .rho = 850., .eta = 30e-6 * 850.};
 static const gm_dip gear = {.R_p = 0.09, .b = 0.03, .h = 0.03, .V_0 = 1.7e-3};
 
@@ -163,6 +228,8 @@ int main(void)
         cmocka_unit_test(seals_of_a_35_mm_shaft),
         cmocka_unit_test(seals_hold_their_torque_at_rest),
         cmocka_unit_test(petroff_gaps),
+        cmocka_unit_test(full_films_of_a_clutch),
+        cmocka_unit_test(films_shrink_when_the_feed_is_thrown_out),
         cmocka_unit_test(churning_in_both_regimes),
         cmocka_unit_test(churning_blends_between_regimes),
         cmocka_unit_test(churning_needs_a_dip_and_is_limited_by_the_gear),
