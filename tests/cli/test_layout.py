@@ -5,6 +5,7 @@ module) and bearings of known size."""
 
 import math
 import sys
+from collections import namedtuple
 from itertools import combinations
 
 import pytest
@@ -14,6 +15,7 @@ sys.path.insert(0, str(ROOT / "tests"))
 from plain_yaml import block, logical_lines  # noqa: E402
 
 FILES = sorted((ROOT / "examples").glob("*.yaml"))
+Cylinder = namedtuple("Cylinder", "name shaft axis start end radius bore")
 GAP_MM = 0.5  # assumption: less would not turn freely
 
 
@@ -23,36 +25,51 @@ def tip_radius(gear):
     return pitch / 2 + gear["normal_module_mm"] * (1 + gear.get("profile_shift", 0))
 
 
+def axes(gearset, gear):
+    """Where a gear turns: on the axis of its shaft, or planets around it."""
+    shaft = gearset["shafts"][gear["shaft"]]
+    n, r = gear.get("planets", 1), gear.get("pin_radius_mm", 0)
+    for k in range(n):
+        angle = math.radians(gear.get("pin_angle_deg", 0) + 360 * k / n)
+        yield shaft["y_mm"] + r * math.cos(angle), shaft["z_mm"] + r * math.sin(angle)
+
+
 def cylinders(gearset):
-    """(name, shaft, from, to, radius) of all parts."""
+    """All parts but gears with internal teeth: name, shaft, axis, from, to, radius, bore."""
     for name, shaft in gearset["shafts"].items():
         for s in shaft["segments"]:
-            yield name, name, s["from_mm"], s["to_mm"], s["diameter_mm"] / 2
+            yield Cylinder(name, name, (shaft["y_mm"], shaft["z_mm"]), s["from_mm"],
+                           s["to_mm"], s["diameter_mm"] / 2, s.get("bore_mm", 0) / 2)
     for name, gear in gearset["gears"].items():
         half = gear["width_mm"] / 2
-        yield (name, gear["shaft"], gear["position_mm"] - half, gear["position_mm"] + half,
-               tip_radius(gear))
+        for axis in axes(gearset, gear):
+            if not gear.get("internal"):
+                yield Cylinder(name, gear["shaft"], axis, gear["position_mm"] - half,
+                               gear["position_mm"] + half, tip_radius(gear), 0)
     for name, bearing in gearset["bearings"].items():
         if "outer_mm" in bearing and "width_mm" in bearing:
-            half = bearing["width_mm"] / 2
-            yield (name, bearing["shaft"], bearing["position_mm"] - half,
-                   bearing["position_mm"] + half, bearing["outer_mm"] / 2)
+            half, shaft = bearing["width_mm"] / 2, gearset["shafts"][bearing["shaft"]]
+            yield Cylinder(name, bearing["shaft"], (shaft["y_mm"], shaft["z_mm"]),
+                           bearing["position_mm"] - half, bearing["position_mm"] + half,
+                           bearing["outer_mm"] / 2, 0)
 
 
-def gap(gearset, a, b):
-    """Radial distance of two cylinders that overlap along x, infinity if they do not."""
-    if min(a[3], b[3]) <= max(a[2], b[2]):
+def gap(a, b):
+    """Distance of two cylinders that overlap along x, beside or inside each other; infinity
+    if they do not overlap. Parts of one shaft, and around one axis, are not looked at."""
+    distance = math.dist(a.axis, b.axis)
+    if min(a.end, b.end) <= max(a.start, b.start) or a.shaft == b.shaft and \
+            a.shaft in (a.name, b.name) or distance == 0:
         return math.inf
-    p, q = gearset["shafts"][a[1]], gearset["shafts"][b[1]]
-    distance = math.hypot(p["y_mm"] - q["y_mm"], p["z_mm"] - q["z_mm"])
-    return math.inf if distance == 0 else distance - a[4] - b[4]
+    return max(distance - a.radius - b.radius, a.bore - distance - b.radius,
+               b.bore - distance - a.radius)
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
 def test_parts_on_different_axes_are_apart(file):
     gearset = block(logical_lines(file.read_text()), 0)
     mates = {frozenset(m["gears"]) for m in gearset["meshes"].values()}
-    close = [(a[0], b[0], round(gap(gearset, a, b), 2))
+    close = [(a.name, b.name, round(gap(a, b), 2))
              for a, b in combinations(cylinders(gearset), 2)
-             if frozenset((a[0], b[0])) not in mates and gap(gearset, a, b) < GAP_MM]
+             if frozenset((a.name, b.name)) not in mates and gap(a, b) < GAP_MM]
     assert close == []
