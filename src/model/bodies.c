@@ -69,7 +69,7 @@ double gm_wheel_mass(const gm_description *description, const gm_wheel *wheel)
                                  wheel_bore(description, wheel)));
 }
 
-static double wheel_inertia(const gm_description *d, const gm_wheel *wheel)
+double gm_wheel_inertia(const gm_description *d, const gm_wheel *wheel)
 {
     if (!isnan(wheel->inertia))
         return wheel->inertia;
@@ -96,7 +96,7 @@ gm_status gm_bodies_make(gm_gearset *gearset, gm_error *error)
         int body = wheel->idles ? gearset->n_bodies++ : wheel->shaft;
         int n = wheel->planets > 0 ? wheel->planets : 1;
         gearset->wheel_body[w] = body;
-        gearset->bodies[body].inertia += n * wheel_inertia(d, wheel);
+        gearset->bodies[body].inertia += n * gm_wheel_inertia(d, wheel);
         gearset->bodies[body].mass += n * gm_wheel_mass(d, wheel);
         if (wheel->planets > 0)
             gearset->bodies[wheel->shaft].inertia +=

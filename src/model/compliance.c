@@ -8,6 +8,7 @@
  * and equal dissipation at slow motion, where every row takes its static share of the
  * rate, d / k^2 = sum d_e (F_e / k_e)^2.
  */
+#include "model/nodes.h"
 #include "model/stiffness.h"
 
 #include "base/alloc.h"
@@ -25,20 +26,57 @@ static void add_row(sums *s, const gm_contact_law *law, double F)
     s->lash += 2.0 * fabs(F) * law->gap;
 }
 
-static void add_rows(const gm_gearset *gearset, const gm_configuration_rows *rows, int p,
-                     const double *inertia, sums *s)
+static void apply(const gm_row *row, double F, double *torque)
 {
-    int input = gm_flange_body(gearset, 1 + p);
-    for (int m = 0; m < gearset->n_meshes; m++) {
-        double mass = gm_row_reduced_mass(&gearset->meshes[m].row, inertia);
-        gm_contact_law law = gm_mesh_contact_law(gearset, m, mass);
-        add_row(s, &law, rows->inverse[m * rows->n_bodies + input]);
+    for (int k = 0; k < row->n; k++)
+        if (row->body[k] >= 0)
+            torque[row->body[k]] -= row->g[k] * F;
+}
+
+/* Meshes and locks; their torques on the nodes. */
+static void add_rows(const gm_nodes *nodes, const gm_configuration_rows *rows, int input,
+                     double *torque, sums *s)
+{
+    const gm_gearset *g = nodes->gearset;
+    for (int e = 0; e < rows->n_rows; e++) {
+        const gm_lock *lock = e < g->n_meshes ? NULL : rows->locked[e - g->n_meshes];
+        gm_row row = lock ? gm_node_lock_row(nodes, lock)
+                          : gm_node_row(nodes, e, &g->meshes[e].row);
+        double mass = gm_row_reduced_mass(&row, nodes->inertia);
+        gm_contact_law law =
+            lock ? gm_lock_contact_law(g, lock, mass) : gm_mesh_contact_law(g, e, mass);
+        /* x = - inverse t for the torque t = 1 N.m on the input */
+        double F = -rows->inverse[e * rows->n_bodies + input];
+        add_row(s, &law, F);
+        apply(&row, F, torque);
     }
-    for (int i = 0; i < rows->n_locks; i++) {
-        double mass = gm_row_reduced_mass(&rows->lock[i], inertia);
-        gm_contact_law law = gm_lock_contact_law(gearset, rows->locked[i], mass);
-        add_row(s, &law, rows->inverse[(gearset->n_meshes + i) * rows->n_bodies + input]);
+}
+
+/* Through each piece of a shaft goes all that acts on the stations before it. */
+static void add_pieces(const gm_nodes *nodes, const double *torque, sums *s)
+{
+    double through = 0.0;
+    for (int i = 0; i < nodes->n_pieces; i++) {
+        const gm_piece *piece = &nodes->pieces[i];
+        through = (piece->number > 0 ? through : 0.0) + torque[piece->row.body[0]];
+        add_row(s, &piece->law, through);
     }
+}
+
+static gm_status add_all(const gm_nodes *nodes, const gm_configuration_rows *rows, int p,
+                         sums *s, gm_error *error)
+{
+    double *torque = gm_calloc((size_t)nodes->n, sizeof *torque);
+    if (!torque)
+        return gm_fail(error, GM_ERR_MEMORY, "out of memory");
+    int input = gm_flange_body(nodes->gearset, 1 + p);
+    torque[gm_flange_node(nodes, 1 + p)] += 1.0;
+    torque[gm_flange_node(nodes, 0)] -=
+        rows->inverse[rows->n_rows * rows->n_bodies + input];
+    add_rows(nodes, rows, input, torque, s);
+    add_pieces(nodes, torque, s);
+    gm_free(torque);
+    return GM_OK;
 }
 
 gm_status gm_gearset_compliance(const gm_gearset *gearset, int p, int number,
@@ -50,21 +88,20 @@ gm_status gm_gearset_compliance(const gm_gearset *gearset, int p, int number,
     if (number == 0)
         return gm_fail(error, GM_ERR_ARGUMENT, "compliance is that of a gear, not of 0");
     gm_configuration_rows rows;
+    gm_nodes nodes;
+    sums s = {0.0, 0.0, 0.0};
     gm_status status = gm_configuration_rows_make(gearset, gear, &rows, error);
     if (status != GM_OK)
         return status;
-    double *inertia = gm_calloc((size_t)gearset->n_bodies, sizeof *inertia);
-    if (!inertia) {
-        gm_configuration_rows_clear(&rows);
-        return gm_fail(error, GM_ERR_MEMORY, "out of memory");
+    status = gm_nodes_make(gearset, &nodes, error);
+    if (status == GM_OK) {
+        status = add_all(&nodes, &rows, p, &s, error);
+        gm_nodes_clear(&nodes);
     }
-    for (int b = 0; b < gearset->n_bodies; b++)
-        inertia[b] = gearset->bodies[b].inertia;
-    sums s = {0.0, 0.0, 0.0};
-    add_rows(gearset, &rows, p, inertia, &s);
-    double k = 1.0 / s.flexibility;
-    *compliance = (gm_compliance){k, k * k * s.dissipation, s.lash};
-    gm_free(inertia);
+    if (status == GM_OK) {
+        double k = 1.0 / s.flexibility;
+        *compliance = (gm_compliance){k, k * k * s.dissipation, s.lash};
+    }
     gm_configuration_rows_clear(&rows);
-    return GM_OK;
+    return status;
 }

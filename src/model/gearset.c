@@ -49,6 +49,7 @@ static gm_status shaft_bearings(gm_gearset *gearset, gm_error *error)
                                         .name = bearing->id.name,
                                         .body = bearing->shaft,
                                         .on = bearing->on,
+                                        .position = bearing->position,
                                         .count = 1};
         gm_status status =
             make_law(gearset, &bearing->data, &bearing->id, &element->law, error);
@@ -119,6 +120,7 @@ static gm_status idler_bearings(gm_gearset *gearset, gm_error *error)
                                         .name = wheel->id.name,
                                         .body = gearset->wheel_body[w],
                                         .on = wheel->shaft,
+                                        .position = wheel->position,
                                         .count = wheel->planets > 0 ? wheel->planets : 1};
         status = make_law(gearset, &wheel->bearing, &wheel->id, &element->law, error);
         if (status == GM_OK)
@@ -232,6 +234,7 @@ static void add_seals_and_gaps(gm_gearset *gearset)
                               .name = d->seals[i].id.name,
                               .body = d->seals[i].shaft,
                               .on = d->seals[i].on,
+                              .position = (double)NAN,
                               .law = GM_DRAG_SEAL,
                               .seal = d->seals[i].model,
                               .radius = 0.5 * d->seals[i].diameter};
@@ -241,6 +244,7 @@ static void add_seals_and_gaps(gm_gearset *gearset)
                               .name = d->gaps[i].id.name,
                               .body = d->gaps[i].inner,
                               .on = d->gaps[i].outer,
+                              .position = (double)NAN,
                               .law = GM_DRAG_GAP,
                               .radius = d->gaps[i].radius,
                               .length = d->gaps[i].length,
@@ -259,6 +263,7 @@ static void add_cones(gm_gearset *gearset)
                                   .name = d->wheels[sync->wheels[k]].id.name,
                                   .body = gearset->wheel_body[sync->wheels[k]],
                                   .on = sync->shaft,
+                                  .position = d->wheels[sync->wheels[k]].position,
                                   .law = GM_DRAG_GAP,
                                   .radius = sync->cone_radius,
                                   .length = sync->cone_width,
@@ -286,6 +291,7 @@ static void add_clutches(gm_gearset *gearset)
                                   .name = d->clutches[i].id.name,
                                   .body = d->clutches[i].shaft,
                                   .on = d->clutches[i].on,
+                                  .position = (double)NAN,
                                   .law = GM_DRAG_CLUTCH,
                                   .plates = gap_of(&d->clutches[i])};
 }
@@ -305,6 +311,7 @@ static void add_churning(gm_gearset *gearset)
             .name = wheel->id.name,
             .body = gearset->wheel_body[w],
             .on = GM_HOUSING,
+            .position = wheel->position,
             .law = GM_DRAG_CHURNING,
             .dip = {.R_p = 0.5 * wheel->normal_module * wheel->teeth / cos(wheel->helix),
                     .b = wheel->width,

@@ -44,8 +44,9 @@ typedef struct gm_mesh_element {
 typedef struct gm_bearing_element {
     gm_loss_kind kind;
     const char *name;
-    int body, on; /* on = GM_HOUSING: relative to the housing */
-    int count;    /* equal bearings under equal load that the element stands for */
+    int body, on;    /* on = GM_HOUSING: relative to the housing */
+    double position; /* x, m */
+    int count;       /* equal bearings under equal load that the element stands for */
     gm_bearing_law law;
     gm_load_row load;      /* of one of them */
     double centrifugal[3]; /* force of a planet on its pin per speed of `on` squared,
@@ -75,6 +76,7 @@ typedef struct gm_drag_element {
     gm_loss_kind kind;
     const char *name;
     int body, on;
+    double position; /* x, m; NAN: none of its own */
     gm_drag_law law;
     gm_seal_model seal;
     double radius, length, clearance; /* seal: radius only */
@@ -136,6 +138,9 @@ GM_NODISCARD gm_status gm_gearset_check_inertia(const gm_gearset *gearset,
 
 /** Pitch mass of a wheel from its dimensions, or as given [kg]. */
 double gm_wheel_mass(const gm_description *description, const gm_wheel *wheel);
+
+/** Moment of inertia of one wheel about its own axis, likewise [kg.m2]. */
+double gm_wheel_inertia(const gm_description *description, const gm_wheel *wheel);
 
 /** Shaft mass, as given or from its segments [kg], and its centre along x [m]. */
 double gm_shaft_mass(const gm_shaft *shaft, double *centre);

@@ -35,10 +35,15 @@ typedef struct gm_segment {
     int line;
 } gm_segment;
 
+typedef enum gm_torsion_model { GM_TORSION_RIGID, GM_TORSION_ELASTIC } gm_torsion_model;
+
 typedef struct gm_shaft {
     gm_label id;
-    double y, z;          /* m */
-    double inertia, mass; /* of the shaft without its gears; NAN: from the segments */
+    gm_torsion_model torsion;
+    double torsion_damping; /* ratio, of each piece */
+    double flange;          /* x of its flange, m; NAN: the end with the lower x */
+    double y, z;            /* m */
+    double inertia, mass;   /* of the shaft without its gears; NAN: from the segments */
     gm_segment *segments;
     int n_segments;
 } gm_shaft;

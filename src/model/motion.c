@@ -17,7 +17,7 @@ void gm_motion_destroy(gm_motion *motion)
     if (!motion)
         return;
     gm_motion_clear_signals(motion);
-    gm_free(motion->inertia);
+    gm_nodes_clear(&motion->nodes);
     gm_free(motion->rows);
     gm_free(motion->roll);
     gm_free(motion->bearing);

@@ -2,8 +2,8 @@
  *
  * The gearset in motion, as the files motion*.c share it.
  *
- * Order of the states: speeds of the nodes, deflections of the rows (meshes, locks), then
- * one bristle for every bearing with presliding friction. A node is what turns as one.
+ * Order of the states: speeds of the nodes, deflections of the rows (meshes, locks,
+ * pieces of shafts that twist).
  */
 #ifndef MOTION_H
 #define MOTION_H
@@ -11,6 +11,7 @@
 #include "model/contact.h"
 #include "model/gearset.h"
 #include "model/gm_motion.h"
+#include "model/nodes.h"
 
 /** An elastic row over nodes. */
 typedef struct gm_motion_row {
@@ -66,8 +67,9 @@ typedef struct gm_motion_pattern_data {
 
 struct gm_motion {
     const gm_gearset *gearset;
+    gm_nodes nodes;
     int n_nodes, n_rows, n_locks, n_states;
-    double *inertia; /* [n_nodes] kg.m2 */
+    const double *inertia; /* [n_nodes] kg.m2, of the nodes */
     gm_motion_row *rows;
     gm_row *roll;            /* [n_meshes] over nodes */
     gm_motion_pair *bearing; /* [n_bearings] */
@@ -96,9 +98,6 @@ GM_NODISCARD gm_status gm_motion_make_rows(gm_motion *motion, gm_error *error);
 
 /** gm_path_mode of core/gm_reduced.h that path p is in (motion_modes.c). */
 int gm_motion_path_mode(const gm_motion *motion, int p);
-
-/** Name and line of a node: a shaft's or an idling gear's. */
-const gm_label *gm_motion_node_label(const gm_motion *motion, int node);
 
 /** Torque of a lock's cones along its row. */
 static inline double gm_motion_cone_torque(const gm_motion_lock *lock)

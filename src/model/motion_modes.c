@@ -150,7 +150,7 @@ static gm_status start_speeds(const gm_motion *m, const int *gear, const double 
     if (status != GM_OK)
         return status;
     for (int i = 0; i < m->n_nodes; i++) {
-        const double *s = rows.speed_of + i * rows.n_independent;
+        const double *s = rows.speed_of + m->nodes.body[i] * rows.n_independent;
         w[i] = 0.0;
         for (int k = 0; k < rows.n_independent; k++)
             w[i] += s[k] * speed[rows.flange[k]];

@@ -8,55 +8,25 @@
 
 #include "base/alloc.h"
 
-static gm_status count(gm_motion *m, gm_error *error)
+static gm_status allocate(gm_motion *m, gm_error *error)
 {
     const gm_gearset *g = m->gearset;
     const gm_description *d = g->description;
-    m->n_nodes = g->n_bodies;
+    m->n_nodes = m->nodes.n;
+    m->inertia = m->nodes.inertia;
     for (int i = 0; i < d->n_synchronisers; i++)
         m->n_locks += d->synchronisers[i].n_wheels;
     m->n_locks += d->n_clutches;
-    m->n_rows = g->n_meshes + m->n_locks;
+    m->n_rows = g->n_meshes + m->n_locks + m->nodes.n_pieces;
     m->n_states = m->n_nodes + m->n_rows;
-    m->inertia = gm_calloc((size_t)m->n_nodes, sizeof *m->inertia);
     m->rows = gm_calloc((size_t)m->n_rows, sizeof *m->rows);
     m->roll = gm_calloc((size_t)g->n_meshes, sizeof *m->roll);
     m->bearing = gm_calloc((size_t)g->n_bearings, sizeof *m->bearing);
     m->drag = gm_calloc((size_t)g->n_drags, sizeof *m->drag);
     m->locks = gm_calloc((size_t)m->n_locks, sizeof *m->locks);
-    return m->inertia && m->rows && m->roll && m->bearing && m->drag && m->locks
+    return m->rows && m->roll && m->bearing && m->drag && m->locks
                ? GM_OK
                : gm_fail(error, GM_ERR_MEMORY, "out of memory");
-}
-
-const gm_label *gm_motion_node_label(const gm_motion *motion, int node)
-{
-    const gm_gearset *g = motion->gearset;
-    const gm_description *d = g->description;
-    int body = node;
-    if (body < d->n_shafts)
-        return &d->shafts[body].id;
-    for (int w = 0; w < d->n_wheels; w++)
-        if (g->wheel_body[w] == body)
-            return &d->wheels[w].id;
-    return &d->shafts[0].id;
-}
-
-static gm_status make_nodes(gm_motion *m, gm_error *error)
-{
-    const gm_gearset *g = m->gearset;
-    for (int i = 0; i < m->n_nodes; i++) {
-        m->inertia[i] = g->bodies[i].inertia;
-        if (m->inertia[i] > 0.0)
-            continue;
-        const gm_label *id = gm_motion_node_label(m, i);
-        return gm_fail(error, GM_ERR_MODEL,
-                       "%s:%d: '%s' has no moment of inertia: it cannot move in time",
-                       g->description->file, id->line, id->name);
-    }
-    for (int f = 0; f <= g->description->n_paths; f++)
-        m->flange[f] = gm_flange_body(g, f);
-    return GM_OK;
 }
 
 static void make_meshes(gm_motion *m)
@@ -64,11 +34,11 @@ static void make_meshes(gm_motion *m)
     for (int i = 0; i < m->gearset->n_meshes; i++) {
         const gm_mesh_element *mesh = &m->gearset->meshes[i];
         gm_motion_row *row = &m->rows[i];
-        row->row = mesh->row;
+        row->row = gm_node_row(&m->nodes, i, &mesh->row);
         row->law = gm_mesh_contact_law(m->gearset, i,
                                        gm_row_reduced_mass(&row->row, m->inertia));
         row->closed = 1;
-        m->roll[i] = mesh->roll;
+        m->roll[i] = gm_node_row(&m->nodes, i, &mesh->roll);
     }
 }
 
@@ -76,7 +46,7 @@ static void make_lock(gm_motion *m, int i, gm_lock what)
 {
     const gm_description *d = m->gearset->description;
     gm_motion_row *row = &m->rows[m->gearset->n_meshes + i];
-    row->row = gm_lock_row(m->gearset, &what);
+    row->row = gm_node_lock_row(&m->nodes, &what);
     row->law = gm_lock_contact_law(m->gearset, &what,
                                    gm_row_reduced_mass(&row->row, m->inertia));
     m->locks[i] = (gm_motion_lock){.name = gm_lock_name(d, &what),
@@ -97,24 +67,43 @@ static void make_locks(gm_motion *m)
         make_lock(m, n++, (gm_lock){.is_clutch = 1, .index = c});
 }
 
+static void make_pieces(gm_motion *m)
+{
+    gm_motion_row *row = &m->rows[m->gearset->n_meshes + m->n_locks];
+    for (int i = 0; i < m->nodes.n_pieces; i++)
+        row[i] = (gm_motion_row){m->nodes.pieces[i].row, m->nodes.pieces[i].law, 1};
+}
+
+static gm_motion_pair pair_at(const gm_motion *m, int body, int on, double x)
+{
+    return (gm_motion_pair){gm_node_at(&m->nodes, body, x), gm_node_at(&m->nodes, on, x)};
+}
+
 static void make_pairs(gm_motion *m)
 {
     const gm_gearset *g = m->gearset;
-    for (int i = 0; i < g->n_bearings; i++)
-        m->bearing[i] = (gm_motion_pair){g->bearings[i].body, g->bearings[i].on};
-    for (int i = 0; i < g->n_drags; i++)
-        m->drag[i] = (gm_motion_pair){g->drags[i].body, g->drags[i].on};
+    for (int i = 0; i < g->n_bearings; i++) {
+        const gm_bearing_element *e = &g->bearings[i];
+        m->bearing[i] = pair_at(m, e->body, e->on, e->position);
+    }
+    for (int i = 0; i < g->n_drags; i++) {
+        const gm_drag_element *e = &g->drags[i];
+        m->drag[i] = pair_at(m, e->body, e->on, e->position);
+    }
+    for (int f = 0; f <= g->description->n_paths; f++)
+        m->flange[f] = gm_flange_node(&m->nodes, f);
 }
 
 gm_status gm_motion_make_rows(gm_motion *motion, gm_error *error)
 {
-    gm_status status = count(motion, error);
+    gm_status status = gm_nodes_make(motion->gearset, &motion->nodes, error);
     if (status == GM_OK)
-        status = make_nodes(motion, error);
+        status = allocate(motion, error);
     if (status != GM_OK)
         return status;
     make_meshes(motion);
     make_locks(motion);
+    make_pieces(motion);
     make_pairs(motion);
     return GM_OK;
 }

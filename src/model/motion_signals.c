@@ -7,6 +7,9 @@
  *   lock.NAME.torque, .w              N.m, rad/s between gear and shaft
  *   bearing.NAME.radial, .axial       N
  *   bearing.NAME.torque               N.m, friction
+ *   shaft.NAME.1.torque ...           N.m, in the pieces of a shaft that twists
+ *
+ * A shaft that twists has body.NAME.1.w and so on, one for each station along x.
  */
 #include "model/motion.h"
 
@@ -14,7 +17,7 @@
 
 #include <stdio.h>
 
-enum { SIGNAL_SIZE = GM_NAME_SIZE + 32 };
+enum { SIGNAL_SIZE = GM_NAME_SIZE + 64 };
 
 static int add(gm_motion *m, const char *kind, const char *name, const char *what,
                const char *unit)
@@ -27,11 +30,31 @@ static int add(gm_motion *m, const char *kind, const char *name, const char *wha
     return copy != NULL;
 }
 
-static int name_bodies(gm_motion *m)
+/* Stations of a shaft that twists are counted from 1. */
+static int name_nodes(gm_motion *m)
 {
     int done = 1;
-    for (int i = 0; i < m->n_nodes && done; i++)
-        done = add(m, "body", gm_motion_node_label(m, i)->name, "w", "rad/s");
+    for (int i = 0; i < m->n_nodes && done; i++) {
+        int body = m->nodes.body[i], first = m->nodes.first[body];
+        const char *name = gm_body_label(m->gearset, body)->name;
+        char what[32] = "w";
+        if (i > first || (i + 1 < m->n_nodes && m->nodes.body[i + 1] == body))
+            (void)snprintf(what, sizeof what, "%d.w", i - first + 1);
+        done = add(m, "body", name, what, "rad/s");
+    }
+    return done;
+}
+
+static int name_pieces(gm_motion *m)
+{
+    int done = 1;
+    for (int i = 0; i < m->nodes.n_pieces && done; i++) {
+        const gm_piece *piece = &m->nodes.pieces[i];
+        char what[32];
+        (void)snprintf(what, sizeof what, "%d.torque", piece->number + 1);
+        done = add(m, "shaft", m->gearset->description->shafts[piece->shaft].id.name,
+                   what, "N.m");
+    }
     return done;
 }
 
@@ -63,10 +86,11 @@ static int name_bearings(gm_motion *m)
 gm_status gm_motion_make_signals(gm_motion *motion, gm_error *error)
 {
     const gm_gearset *g = motion->gearset;
-    int n = motion->n_nodes + 2 * g->n_meshes + 2 * motion->n_locks + 3 * g->n_bearings;
+    int n = motion->n_nodes + 2 * g->n_meshes + 2 * motion->n_locks + 3 * g->n_bearings +
+            motion->nodes.n_pieces;
     motion->signals = gm_calloc((size_t)n, sizeof *motion->signals);
-    if (!motion->signals || !name_bodies(motion) || !name_rows(motion) ||
-        !name_bearings(motion))
+    if (!motion->signals || !name_nodes(motion) || !name_rows(motion) ||
+        !name_bearings(motion) || !name_pieces(motion))
         return gm_fail(error, GM_ERR_MEMORY, "out of memory");
     return GM_OK;
 }
@@ -112,4 +136,6 @@ void gm_motion_observe(gm_motion *motion, const gm_motion_input *input, const do
         *value++ = f->axial;
         *value++ = f->torque;
     }
+    for (int i = 0; i < motion->nodes.n_pieces; i++)
+        *value++ = motion->force[g->n_meshes + motion->n_locks + i];
 }

@@ -23,6 +23,10 @@ static const gm_section segment_section = {
     .line = offsetof(gm_segment, line)};
 #undef OWNER
 
+static const gm_choice torsion_models[] = {{"rigid", GM_TORSION_RIGID},
+                                           {"elastic", GM_TORSION_ELASTIC},
+                                           {NULL, 0}};
+
 #define OWNER gm_shaft
 static const gm_field shaft_fields[] = {
     {NUMBER("y_mm", -5000, 5000), AT(y), .help = "position of the axis, to the side"},
@@ -33,6 +37,14 @@ static const gm_field shaft_fields[] = {
      .help = "of the shaft without its gears; default: from the segments, in steel"},
     {.key = "segments", .type = GM_FIELD_ITEMS, .section = &segment_section, AT(segments),
      .count_offset = offsetof(gm_shaft, n_segments), .help = "its cylinders"},
+    {.key = "torsion", .type = GM_FIELD_CHOICE, .choices = torsion_models, AT(torsion),
+     DEFAULT("rigid"),
+     .help = "elastic: in motion over time it twists between its gears and its flange"},
+    {NUMBER("torsion_damping_ratio", 0, 2), AT(torsion_damping), DEFAULT("0.02"),
+     ONLY("torsion", "elastic"), .help = "of each piece between two gears"},
+    {NUMBER("flange_mm", -5000, 5000), AT(flange), OPTIONAL, ONLY("torsion", "elastic"),
+     .help = "x of the flange of an input or output shaft; default: the end with the "
+             "lower x"},
     END};
 const gm_section gm_schema_shaft = {
     .title = "shafts", .word = "shaft",

@@ -30,6 +30,17 @@ void moving_read(moving *m, const char *path)
     make(m, m->d);
 }
 
+void moving_read_twisting(moving *m, const char *path)
+{
+    gm_error error = {GM_OK, ""};
+    memset(m, 0, sizeof *m);
+    if (gm_description_read(path, &m->d, &error) != GM_OK)
+        fail_msg("%s", error.message);
+    for (int s = 0; s < m->d->n_shafts; s++)
+        m->d->shafts[s].torsion = GM_TORSION_ELASTIC;
+    make(m, m->d);
+}
+
 void moving_make(moving *m, gm_description *d)
 {
     memset(m, 0, sizeof *m);

@@ -22,6 +22,8 @@ typedef struct moving {
 
 /** Read, assemble, make the motion; fails the test with the library's sentence. */
 void moving_read(moving *m, const char *path);
+/** The same with shafts that twist. */
+void moving_read_twisting(moving *m, const char *path);
 /** Over a description in memory, which stays the caller's. */
 void moving_make(moving *m, gm_description *d);
 void moving_clear(moving *m);
