@@ -3,23 +3,12 @@
 
 #include "base/alloc.h"
 #include "plant/fmu_archive.h"
-#include "plant/fmu_description.h"
-#include "plant/fmu_library.h"
+#include "plant/fmu_parts.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-struct gm_fmu {
-    char *path;
-    char folder[FMU_FOLDER_SIZE]; /* empty while nothing is unpacked */
-    fmu_description description;
-    fmu_library library;
-    fmi2CallbackFunctions callbacks;
-    fmi2Component component;
-    char message[512]; /* the FMU's last message */
-};
 
 /* The FMU says why; kept for the sentence that follows. */
 static void keep_message(fmi2ComponentEnvironment environment, fmi2String name,
@@ -35,7 +24,8 @@ static void keep_message(fmi2ComponentEnvironment environment, fmi2String name,
     va_end(arguments);
 }
 
-static gm_status instantiate(gm_fmu *fmu, gm_error *error)
+static gm_status instantiate(gm_fmu *fmu, fmi2Type type, const char *identifier,
+                             gm_error *error)
 {
     char place[FMU_FOLDER_SIZE + 32];
     snprintf(place, sizeof place, "file://%s/resources", fmu->folder);
@@ -43,16 +33,15 @@ static gm_status instantiate(gm_fmu *fmu, gm_error *error)
                                              .allocateMemory = calloc,
                                              .freeMemory = free,
                                              .componentEnvironment = fmu};
-    fmu->component =
-        fmu->library.Instantiate(fmu->description.identifier, fmi2CoSimulation,
-                                 fmu->description.guid, place, &fmu->callbacks, 0, 0);
+    fmu->component = fmu->library.Instantiate(identifier, type, fmu->description.guid,
+                                              place, &fmu->callbacks, 0, 0);
     if (fmu->component)
         return GM_OK;
     return gm_fail(error, GM_ERR_TOOL, "%s: the FMU cannot be instantiated%s%s",
                    fmu->path, fmu->message[0] ? ": " : "", fmu->message);
 }
 
-static gm_status open_steps(gm_fmu *fmu, gm_error *error)
+static gm_status unpack(gm_fmu *fmu, gm_error *error)
 {
     char path[FMU_FOLDER_SIZE + 32];
     gm_status status = gm_fmu_unpack(fmu->path, fmu->folder, error);
@@ -60,13 +49,42 @@ static gm_status open_steps(gm_fmu *fmu, gm_error *error)
         return status;
     snprintf(path, sizeof path, "%s/modelDescription.xml", fmu->folder);
     status = gm_fmu_description_read(path, fmu->path, &fmu->description, error);
-    if (status == GM_OK)
-        status = gm_fmu_library_load(fmu->folder, fmu->description.identifier, fmu->path,
-                                     &fmu->library, error);
-    return status == GM_OK ? instantiate(fmu, error) : status;
+    return status;
 }
 
-gm_status gm_fmu_open(const char *path, gm_fmu **fmu, gm_error *error)
+static gm_status load(gm_fmu *fmu, fmi2Type type, const char *identifier, gm_error *error)
+{
+    gm_status status =
+        gm_fmu_library_load(fmu->folder, identifier, fmu->path, &fmu->library, error);
+    return status == GM_OK ? instantiate(fmu, type, identifier, error) : status;
+}
+
+static gm_status open_steps(gm_fmu *fmu, gm_error *error)
+{
+    gm_status status = unpack(fmu, error);
+    return status == GM_OK
+               ? load(fmu, fmi2CoSimulation, fmu->description.identifier, error)
+               : status;
+}
+
+static gm_status open_exchange(gm_fmu *fmu, gm_error *error)
+{
+    gm_status status = unpack(fmu, error);
+    if (status != GM_OK)
+        return status;
+    if (!fmu->description.exchange_identifier)
+        return gm_fail(error, GM_ERR_FORMAT, "%s: the FMU does not offer Model Exchange",
+                       fmu->path);
+    status = load(fmu, fmi2ModelExchange, fmu->description.exchange_identifier, error);
+    if (status == GM_OK && !gm_fmu_library_exchanges(&fmu->library))
+        return gm_fail(error, GM_ERR_FORMAT,
+                       "%s: the FMU's library lacks functions of Model Exchange",
+                       fmu->path);
+    return status;
+}
+
+static gm_status open_by(gm_status (*steps)(gm_fmu *, gm_error *), const char *path,
+                         gm_fmu **fmu, gm_error *error)
 {
     gm_fmu *opened = gm_calloc(1, sizeof *opened);
     if (opened)
@@ -75,12 +93,22 @@ gm_status gm_fmu_open(const char *path, gm_fmu **fmu, gm_error *error)
         gm_fmu_close(opened);
         return gm_fail(error, GM_ERR_MEMORY, "no memory to open %s", path);
     }
-    gm_status status = open_steps(opened, error);
+    gm_status status = steps(opened, error);
     if (status == GM_OK)
         *fmu = opened;
     else
         gm_fmu_close(opened);
     return status;
+}
+
+gm_status gm_fmu_open(const char *path, gm_fmu **fmu, gm_error *error)
+{
+    return open_by(open_steps, path, fmu, error);
+}
+
+gm_status gm_fmu_open_exchange(const char *path, gm_fmu **fmu, gm_error *error)
+{
+    return open_by(open_exchange, path, fmu, error);
 }
 
 void gm_fmu_close(gm_fmu *fmu)
@@ -124,8 +152,7 @@ int gm_fmu_has(const gm_fmu *fmu, const char *name)
     return gm_fmu_description_find(&fmu->description, name) != NULL;
 }
 
-/* Warnings are not failures: the FMU went on. */
-static gm_status checked(gm_fmu *fmu, const char *function, fmi2Status status,
+gm_status gm_fmu_checked(gm_fmu *fmu, const char *function, fmi2Status status,
                          gm_error *error)
 {
     if (status == fmi2OK || status == fmi2Warning)
@@ -136,22 +163,24 @@ static gm_status checked(gm_fmu *fmu, const char *function, fmi2Status status,
 
 gm_status gm_fmu_set_real(gm_fmu *fmu, unsigned reference, double value, gm_error *error)
 {
-    return checked(fmu, "fmi2SetReal",
-                   fmu->library.SetReal(fmu->component, &reference, 1, &value), error);
+    return gm_fmu_checked(fmu, "fmi2SetReal",
+                          fmu->library.SetReal(fmu->component, &reference, 1, &value),
+                          error);
 }
 
 gm_status gm_fmu_set_integer(gm_fmu *fmu, unsigned reference, int value, gm_error *error)
 {
-    return checked(fmu, "fmi2SetInteger",
-                   fmu->library.SetInteger(fmu->component, &reference, 1, &value), error);
+    return gm_fmu_checked(fmu, "fmi2SetInteger",
+                          fmu->library.SetInteger(fmu->component, &reference, 1, &value),
+                          error);
 }
 
 gm_status gm_fmu_get_real(gm_fmu *fmu, unsigned reference, double *value, gm_error *error)
 {
     double got = 0.0;
     gm_status status =
-        checked(fmu, "fmi2GetReal",
-                fmu->library.GetReal(fmu->component, &reference, 1, &got), error);
+        gm_fmu_checked(fmu, "fmi2GetReal",
+                       fmu->library.GetReal(fmu->component, &reference, 1, &got), error);
     if (status == GM_OK)
         *value = got;
     return status;
@@ -160,9 +189,9 @@ gm_status gm_fmu_get_real(gm_fmu *fmu, unsigned reference, double *value, gm_err
 gm_status gm_fmu_get_boolean(gm_fmu *fmu, unsigned reference, int *value, gm_error *error)
 {
     fmi2Boolean got = fmi2False;
-    gm_status status =
-        checked(fmu, "fmi2GetBoolean",
-                fmu->library.GetBoolean(fmu->component, &reference, 1, &got), error);
+    gm_status status = gm_fmu_checked(
+        fmu, "fmi2GetBoolean",
+        fmu->library.GetBoolean(fmu->component, &reference, 1, &got), error);
     if (status == GM_OK)
         *value = got != fmi2False;
     return status;
@@ -170,29 +199,29 @@ gm_status gm_fmu_get_boolean(gm_fmu *fmu, unsigned reference, int *value, gm_err
 
 gm_status gm_fmu_reset(gm_fmu *fmu, gm_error *error)
 {
-    return checked(fmu, "fmi2Reset", fmu->library.Reset(fmu->component), error);
+    return gm_fmu_checked(fmu, "fmi2Reset", fmu->library.Reset(fmu->component), error);
 }
 
 gm_status gm_fmu_initialise(gm_fmu *fmu, gm_error *error)
 {
-    gm_status status = checked(
+    gm_status status = gm_fmu_checked(
         fmu, "fmi2SetupExperiment",
         fmu->library.SetupExperiment(fmu->component, fmi2False, 0.0, 0.0, fmi2False, 0.0),
         error);
     if (status != GM_OK)
         return status;
-    return checked(fmu, "fmi2EnterInitializationMode",
-                   fmu->library.EnterInitializationMode(fmu->component), error);
+    return gm_fmu_checked(fmu, "fmi2EnterInitializationMode",
+                          fmu->library.EnterInitializationMode(fmu->component), error);
 }
 
 gm_status gm_fmu_start(gm_fmu *fmu, gm_error *error)
 {
-    return checked(fmu, "fmi2ExitInitializationMode",
-                   fmu->library.ExitInitializationMode(fmu->component), error);
+    return gm_fmu_checked(fmu, "fmi2ExitInitializationMode",
+                          fmu->library.ExitInitializationMode(fmu->component), error);
 }
 
 gm_status gm_fmu_step(gm_fmu *fmu, double t, double h, gm_error *error)
 {
-    return checked(fmu, "fmi2DoStep", fmu->library.DoStep(fmu->component, t, h, fmi2True),
-                   error);
+    return gm_fmu_checked(fmu, "fmi2DoStep",
+                          fmu->library.DoStep(fmu->component, t, h, fmi2True), error);
 }

@@ -6,16 +6,16 @@
 
 #include "base/alloc.h"
 #include "base/text.h"
+#include "plant/fmu_exchange.h"
 
 #include <libxml/parser.h>
-#include <libxml/tree.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static xmlNode *child(const xmlNode *parent, const char *name)
+xmlNode *gm_fmu_child(const xmlNode *parent, const char *name)
 {
     for (xmlNode *node = parent->children; node; node = node->next)
         if (node->type == XML_ELEMENT_NODE && !xmlStrcmp(node->name, BAD_CAST name))
@@ -23,8 +23,7 @@ static xmlNode *child(const xmlNode *parent, const char *name)
     return NULL;
 }
 
-/* Copy of an attribute's value; NULL when it is missing or there is no memory. */
-static char *attribute(xmlNode *node, const char *name)
+char *gm_fmu_attribute(xmlNode *node, const char *name)
 {
     xmlChar *value = xmlGetProp(node, BAD_CAST name);
     char *copy = value ? gm_strdup((const char *)value) : NULL;
@@ -32,7 +31,7 @@ static char *attribute(xmlNode *node, const char *name)
     return copy;
 }
 
-static bool read_reference(const char *text, unsigned *reference)
+bool gm_fmu_read_reference(const char *text, unsigned *reference)
 {
     char *rest;
     unsigned long value = text && *text >= '0' && *text <= '9' ? strtoul(text, &rest, 10)
@@ -44,9 +43,9 @@ static bool read_reference(const char *text, unsigned *reference)
 static gm_status read_variable(xmlNode *node, const char *archive, fmu_variable *variable,
                                gm_error *error)
 {
-    char *reference = attribute(node, "valueReference");
-    variable->name = attribute(node, "name");
-    bool good = variable->name && read_reference(reference, &variable->reference);
+    char *reference = gm_fmu_attribute(node, "valueReference");
+    variable->name = gm_fmu_attribute(node, "name");
+    bool good = variable->name && gm_fmu_read_reference(reference, &variable->reference);
     gm_free(reference);
     if (good)
         return GM_OK;
@@ -81,14 +80,14 @@ static gm_status read_variables(xmlNode *list, const char *archive, fmu_descript
 /* The annotation of the program that made the component; NULL when another did. */
 static xmlNode *find_origin(xmlNode *root)
 {
-    xmlNode *list = child(root, "VendorAnnotations");
+    xmlNode *list = gm_fmu_child(root, "VendorAnnotations");
     for (xmlNode *tool = list ? list->children : NULL; tool; tool = tool->next) {
         xmlChar *name =
             tool->type == XML_ELEMENT_NODE ? xmlGetProp(tool, BAD_CAST "name") : NULL;
         bool ours = name && !xmlStrcmp(name, BAD_CAST "gearmap");
         xmlFree(name);
         if (ours)
-            return child(tool, "Gearset");
+            return gm_fmu_child(tool, "Gearset");
     }
     return NULL;
 }
@@ -97,7 +96,7 @@ static xmlNode *find_origin(xmlNode *root)
 static gm_status read_optional(xmlNode *node, const char *name, const char *archive,
                                char **value, gm_error *error)
 {
-    *value = attribute(node, name);
+    *value = gm_fmu_attribute(node, name);
     if (*value || !xmlHasProp(node, BAD_CAST name))
         return GM_OK;
     return gm_fail(error, GM_ERR_MEMORY, "no memory to read %s", archive);
@@ -124,8 +123,7 @@ static gm_status read_origin(xmlNode *root, const char *archive, fmu_description
     return status;
 }
 
-/* The identifier becomes part of a path. */
-static bool is_identifier(const char *text)
+bool gm_fmu_is_identifier(const char *text)
 {
     return text && *text &&
            strspn(text,
@@ -136,24 +134,26 @@ static bool is_identifier(const char *text)
 static gm_status read_root(xmlNode *root, const char *archive, fmu_description *d,
                            gm_error *error)
 {
-    char *version = root ? attribute(root, "fmiVersion") : NULL;
+    char *version = root ? gm_fmu_attribute(root, "fmiVersion") : NULL;
     bool is_fmi2 = version && !strcmp(version, "2.0");
-    xmlNode *mode = is_fmi2 ? child(root, "CoSimulation") : NULL;
-    xmlNode *list = is_fmi2 ? child(root, "ModelVariables") : NULL;
+    xmlNode *mode = is_fmi2 ? gm_fmu_child(root, "CoSimulation") : NULL;
+    xmlNode *list = is_fmi2 ? gm_fmu_child(root, "ModelVariables") : NULL;
     gm_free(version);
     if (!is_fmi2)
         return gm_fail(error, GM_ERR_FORMAT, "%s: is not an FMU of FMI 2.0", archive);
     if (!mode || !list)
         return gm_fail(error, GM_ERR_FORMAT, "%s: the FMU does not offer Co-Simulation",
                        archive);
-    d->guid = attribute(root, "guid");
-    d->identifier = attribute(mode, "modelIdentifier");
-    if (!d->guid || !is_identifier(d->identifier))
+    d->guid = gm_fmu_attribute(root, "guid");
+    d->identifier = gm_fmu_attribute(mode, "modelIdentifier");
+    if (!d->guid || !gm_fmu_is_identifier(d->identifier))
         return gm_fail(error, GM_ERR_FORMAT,
                        "%s: modelDescription.xml has no GUID or no model identifier",
                        archive);
     gm_status status = read_origin(root, archive, d, error);
-    return status == GM_OK ? read_variables(list, archive, d, error) : status;
+    if (status == GM_OK)
+        status = read_variables(list, archive, d, error);
+    return status == GM_OK ? gm_fmu_exchange_read(root, archive, d, error) : status;
 }
 
 static void keep_quiet(void *context, xmlErrorPtr message)
@@ -205,6 +205,12 @@ void gm_fmu_description_clear(fmu_description *description)
     for (int i = 0; i < description->n_variables; i++)
         gm_free(description->variables[i].name);
     gm_free(description->variables);
+    for (int i = 0; i < description->n_states; i++) {
+        gm_free(description->states[i].name);
+        gm_free(description->states[i].dependencies);
+    }
+    gm_free(description->states);
+    gm_free(description->exchange_identifier);
     gm_free(description->guid);
     gm_free(description->identifier);
     gm_free(description->source_sha256);

@@ -12,8 +12,21 @@ typedef struct fmu_variable {
     unsigned reference;
 } fmu_variable;
 
+/** A continuous state of Model Exchange, in the order of the state vector. */
+typedef struct fmu_state {
+    char *name; /* of the state's variable */
+    unsigned reference, rate_reference;
+    int n_dependencies; /* -1: not stated, on everything */
+    int *dependencies;  /* [n_dependencies] states that the rate depends on */
+} fmu_state;
+
 typedef struct fmu_description {
-    char *guid, *identifier;        /* of the Co-Simulation interface */
+    char *guid, *identifier;   /* of the Co-Simulation interface */
+    char *exchange_identifier; /* of Model Exchange; NULL: not offered */
+    int directional;           /* 1: Model Exchange gives directional derivatives */
+    int n_indicators;          /* event indicators */
+    int n_states;
+    fmu_state *states;              /* [n_states] */
     char *source_sha256, *map_hash; /* NULL: not stated */
     double oil_temperature;         /* K, NAN: not stated */
     int n_variables;

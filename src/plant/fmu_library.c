@@ -23,6 +23,10 @@ static gm_status find_functions(const char *archive, fmu_library *library,
         missing = "fmi2" #name;
     FMU_FUNCTIONS(FMU_FIND)
 #undef FMU_FIND
+#define FMU_FIND(name)                                                                   \
+    (void)find(library->handle, "fmi2" #name, &library->name, sizeof library->name);
+    FMU_EXCHANGE_FUNCTIONS(FMU_FIND)
+#undef FMU_FIND
     if (!missing)
         return GM_OK;
     return gm_fail(error, GM_ERR_FORMAT, "%s: the FMU's library has no function %s",
@@ -52,6 +56,13 @@ gm_status gm_fmu_library_load(const char *folder, const char *identifier,
     else
         gm_fmu_library_close(&loaded);
     return status;
+}
+
+int gm_fmu_library_exchanges(const fmu_library *l)
+{
+    return l->EnterEventMode && l->NewDiscreteStates && l->EnterContinuousTimeMode &&
+           l->SetTime && l->SetContinuousStates && l->GetContinuousStates &&
+           l->GetDerivatives && l->GetEventIndicators;
 }
 
 void gm_fmu_library_close(fmu_library *library)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * The shared library of an FMI 2.0 Co-Simulation FMU and its functions.
+ * The shared library of an FMI 2.0 FMU and its functions.
  */
 #ifndef FMU_LIBRARY_H
 #define FMU_LIBRARY_H
@@ -8,7 +8,7 @@
 #include "base/gm_status.h"
 #include "fmi2FunctionTypes.h"
 
-/** Functions that are called: field, type. */
+/** Functions that every FMU must have. */
 #define FMU_FUNCTIONS(X)                                                                 \
     X(Instantiate)                                                                       \
     X(FreeInstance)                                                                      \
@@ -20,13 +20,27 @@
     X(SetReal)                                                                           \
     X(SetInteger)                                                                        \
     X(GetReal)                                                                           \
+    X(GetInteger)                                                                        \
     X(GetBoolean)                                                                        \
     X(DoStep)
+
+/** Functions of Model Exchange: NULL where the library does not have them. */
+#define FMU_EXCHANGE_FUNCTIONS(X)                                                        \
+    X(EnterEventMode)                                                                    \
+    X(NewDiscreteStates)                                                                 \
+    X(EnterContinuousTimeMode)                                                           \
+    X(SetTime)                                                                           \
+    X(SetContinuousStates)                                                               \
+    X(GetContinuousStates)                                                               \
+    X(GetDerivatives)                                                                    \
+    X(GetEventIndicators)                                                                \
+    X(GetDirectionalDerivative)
 
 typedef struct fmu_library {
     void *handle;
 #define FMU_FIELD(name) fmi2##name##TYPE *name;
     FMU_FUNCTIONS(FMU_FIELD)
+    FMU_EXCHANGE_FUNCTIONS(FMU_FIELD)
 #undef FMU_FIELD
 } fmu_library;
 
@@ -36,6 +50,9 @@ typedef struct fmu_library {
 GM_NODISCARD gm_status gm_fmu_library_load(const char *folder, const char *identifier,
                                            const char *archive, fmu_library *library,
                                            gm_error *error);
+
+/** 1 when the library has what Model Exchange needs (directional derivatives may lack). */
+int gm_fmu_library_exchanges(const fmu_library *library);
 
 /** Unload; a library that was never loaded is fine. */
 void gm_fmu_library_close(fmu_library *library);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * An FMI 2.0 Co-Simulation FMU opened from its file: unpacked into a temporary folder,
- * its library loaded, its variables found by name. Refuses what is malformed.
+ * An FMI 2.0 FMU opened from its file: unpacked into a temporary folder, its library
+ * loaded, its variables found by name. Refuses what is malformed.
  */
 #ifndef GM_FMU_H
 #define GM_FMU_H
@@ -14,9 +14,12 @@ extern "C" {
 
 typedef struct gm_fmu gm_fmu;
 
-/** Open and instantiate. GM_ERR_IO, GM_ERR_FORMAT (not an archive, no modelDescription,
+/** Open and instantiate for Co-Simulation. GM_ERR_IO, GM_ERR_FORMAT (not an archive, no modelDescription,
  *  no binary for this platform, entries that would leave the folder), GM_ERR_TOOL. */
 GM_NODISCARD gm_status gm_fmu_open(const char *path, gm_fmu **fmu, gm_error *error);
+/** The same for Model Exchange (fmu_motion.c). */
+GM_NODISCARD gm_status gm_fmu_open_exchange(const char *path, gm_fmu **fmu,
+                                            gm_error *error);
 void gm_fmu_close(gm_fmu *fmu);
 
 /** What a component says it was made from. */

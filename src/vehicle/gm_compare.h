@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * Two drives of one cycle, with the detailed and with the reduced gearset: what was gained
- * and what it cost.
+ * Two drives of one cycle, with the detailed and with the reduced gearset: what was
+ * gained and what it cost.
  *
  * Torques are compared below 5 Hz (second-order Butterworth, run forward and backward, so
  * without delay): what reaches driver and car; above it the two differ by what a reduced
