@@ -9,6 +9,7 @@
 #include "plant/fmu_exchange.h"
 
 #include <libxml/parser.h>
+#include <libxml/tree.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * In FMI 2.0 the state vector is in the order of <Derivatives>; each entry is the index of
- * a variable whose attribute `derivative` is the index of its state. Indices count the
+ * In FMI 2.0 the state vector is in the order of <Derivatives>; each entry is the index
+ * of a variable whose attribute `derivative` is the index of its state. Indices count the
  * elements of <ModelVariables> from 1.
  */
 #include "plant/fmu_exchange.h"
 
 #include "base/alloc.h"
 
+#include <libxml/tree.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -8,8 +8,9 @@
 
 #include "plant/fmu_description.h"
 
-#include <libxml/tree.h>
 #include <stdbool.h>
+
+typedef struct _xmlNode xmlNode; /* of libxml2 */
 
 /** States with their rates and dependencies, indicators, capabilities; nothing when the
  *  FMU has no Model Exchange. GM_ERR_FORMAT, GM_ERR_MEMORY; what was made stays in *d. */

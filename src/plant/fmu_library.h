@@ -51,7 +51,8 @@ GM_NODISCARD gm_status gm_fmu_library_load(const char *folder, const char *ident
                                            const char *archive, fmu_library *library,
                                            gm_error *error);
 
-/** 1 when the library has what Model Exchange needs (directional derivatives may lack). */
+/** 1 when the library has what Model Exchange needs (but for directional derivatives).
+ */
 int gm_fmu_library_exchanges(const fmu_library *library);
 
 /** Unload; a library that was never loaded is fine. */

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
-#include "plant/gm_fmu_motion.h"
+#include "plant/fmu_motion.h"
 
 #include "base/alloc.h"
-#include "plant/fmu_parts.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -12,29 +11,7 @@
 #define NOMINAL_ANGLE 10.0  /* rad; twists: their own */
 #define NOMINAL_TWIST 1e-2
 #define NOMINAL_ENERGY 1e4 /* J */
-enum { EVENT_ROUNDS = 10, N_VIEW = 3 };
-
-struct gm_fmu_plant {
-    char *path;
-    gm_fmu_fidelity fidelity;
-    int n_paths;
-    int directional;
-};
-
-typedef struct motion {
-    const gm_fmu_plant *plant;
-    gm_fmu *fmu;
-    int n, n_events;
-    unsigned tau[GM_MAX_FLANGES], acceleration[GM_MAX_FLANGES];
-    unsigned gear[GM_MAX_INPUT_PATHS], state[GM_MAX_INPUT_PATHS];
-    unsigned energy[N_VIEW]; /* loss power, kinetic and elastic energy */
-    int speed[GM_MAX_FLANGES];
-    gm_motion_input input; /* as the FMU knows it */
-    double *column;        /* [n] */
-    double *indicator;     /* [n_events] */
-    int *above;            /* [n_events] side of each indicator in the present mode */
-    fmi2ValueReference *state_reference, *rate_reference; /* [n] */
-} motion;
+enum { EVENT_ROUNDS = 10 };
 
 static const char *flange_name(int n_paths, int flange)
 {
@@ -53,7 +30,7 @@ static gm_status find(const gm_fmu *fmu, const char *flange, const char *name,
     return gm_fmu_find(fmu, full, reference, error);
 }
 
-static gm_status find_flange(motion *m, int f, gm_error *error)
+static gm_status find_flange(gm_fmu_motion *m, int f, gm_error *error)
 {
     const char *flange = flange_name(m->plant->n_paths, f);
     char speed[64];
@@ -75,7 +52,7 @@ static gm_status find_flange(motion *m, int f, gm_error *error)
     return status;
 }
 
-static gm_status find_all(motion *m, gm_error *error)
+static gm_status find_all(gm_fmu_motion *m, gm_error *error)
 {
     gm_status status = gm_fmu_find(m->fmu, "loss_power", &m->energy[0], error);
     if (status == GM_OK)
@@ -91,7 +68,7 @@ static gm_status find_all(motion *m, gm_error *error)
 
 static void destroy(void *user)
 {
-    motion *m = user;
+    gm_fmu_motion *m = user;
     if (!m)
         return;
     gm_fmu_close(m->fmu);
@@ -103,7 +80,7 @@ static void destroy(void *user)
     gm_free(m);
 }
 
-static gm_status make_room(motion *m, gm_error *error)
+static gm_status make_room(gm_fmu_motion *m, gm_error *error)
 {
     const fmu_description *d = &m->fmu->description;
     m->n = d->n_states;
@@ -126,7 +103,7 @@ static gm_status make_room(motion *m, gm_error *error)
 
 static gm_status create(const void *plant, void **made, gm_error *error)
 {
-    motion *m = gm_calloc(1, sizeof *m);
+    gm_fmu_motion *m = gm_calloc(1, sizeof *m);
     if (!m)
         return gm_fail(error, GM_ERR_MEMORY, "out of memory");
     m->plant = plant;
@@ -145,7 +122,7 @@ static gm_status create(const void *plant, void **made, gm_error *error)
 
 /* ---- events ---- */
 
-static fmi2Status note_indicators(motion *m)
+static fmi2Status note_indicators(gm_fmu_motion *m)
 {
     fmi2Status status = m->fmu->library.GetEventIndicators(
         m->fmu->component, m->indicator, (size_t)m->n_events);
@@ -155,7 +132,7 @@ static fmi2Status note_indicators(motion *m)
 }
 
 /* From event mode to continuous time: the FMU settles its modes. */
-static gm_status settle(motion *m, double *x, gm_error *error)
+static gm_status settle(gm_fmu_motion *m, double *x, gm_error *error)
 {
     const fmu_library *l = &m->fmu->library;
     fmi2EventInfo info = {.newDiscreteStatesNeeded = fmi2True};
@@ -180,7 +157,7 @@ static gm_status settle(motion *m, double *x, gm_error *error)
     return status;
 }
 
-static int set_torques(motion *m, const gm_motion_input *input)
+static int set_torques(gm_fmu_motion *m, const gm_motion_input *input)
 {
     size_t n = (size_t)m->plant->n_paths + 1;
     if (memcmp(m->input.torque, input->torque, n * sizeof *input->torque) == 0)
@@ -190,7 +167,8 @@ static int set_torques(motion *m, const gm_motion_input *input)
            fmi2Warning;
 }
 
-static gm_status set_gears(motion *m, const gm_motion_input *input, gm_error *error)
+static gm_status set_gears(gm_fmu_motion *m, const gm_motion_input *input,
+                           gm_error *error)
 {
     size_t n = (size_t)m->plant->n_paths;
     memcpy(m->input.gear, input->gear, sizeof m->input.gear);
@@ -199,14 +177,15 @@ static gm_status set_gears(motion *m, const gm_motion_input *input, gm_error *er
         m->fmu->library.SetInteger(m->fmu->component, m->gear, n, input->gear), error);
 }
 
-static gm_status set_start(motion *m, const char *flange, double speed, gm_error *error)
+static gm_status set_start(gm_fmu_motion *m, const char *flange, double speed,
+                           gm_error *error)
 {
     unsigned reference = 0;
     gm_status status = find(m->fmu, flange, "w_start", &reference, error);
     return status == GM_OK ? gm_fmu_set_real(m->fmu, reference, speed, error) : status;
 }
 
-static gm_status set_fidelity(motion *m, gm_error *error)
+static gm_status set_fidelity(gm_fmu_motion *m, gm_error *error)
 {
     unsigned reference = 0;
     gm_status status = gm_fmu_find(m->fmu, "fidelity", &reference, error);
@@ -218,7 +197,7 @@ static gm_status set_fidelity(motion *m, gm_error *error)
 static gm_status start(void *user, const gm_motion_input *input, const double *speed,
                        double *x, gm_error *error)
 {
-    motion *m = user;
+    gm_fmu_motion *m = user;
     gm_status status = gm_fmu_reset(m->fmu, error);
     memset(&m->input, 0, sizeof m->input);
     if (status == GM_OK)
@@ -238,16 +217,17 @@ static gm_status start(void *user, const gm_motion_input *input, const double *s
 
 /* ---- continuous time ---- */
 
-static int put(motion *m, const gm_motion_input *input, const double *x)
+int gm_fmu_motion_put(gm_fmu_motion *m, const gm_motion_input *input, const double *x)
 {
     return set_torques(m, input) || m->fmu->library.SetContinuousStates(
                                         m->fmu->component, x, (size_t)m->n) > fmi2Warning;
 }
 
-static int rates(void *user, const gm_motion_input *input, const double *x, double *dx)
+int gm_fmu_motion_rates(void *user, const gm_motion_input *input, const double *x,
+                        double *dx)
 {
-    motion *m = user;
-    if (put(m, input, x))
+    gm_fmu_motion *m = user;
+    if (gm_fmu_motion_put(m, input, x))
         return 1;
     fmi2Status status =
         m->fmu->library.GetDerivatives(m->fmu->component, dx, (size_t)m->n);
@@ -256,15 +236,15 @@ static int rates(void *user, const gm_motion_input *input, const double *x, doub
 
 static int events(void *user, const gm_motion_input *input, const double *x, double *g)
 {
-    motion *m = user;
-    if (put(m, input, x))
+    gm_fmu_motion *m = user;
+    if (gm_fmu_motion_put(m, input, x))
         return 1;
     fmi2Status status =
         m->fmu->library.GetEventIndicators(m->fmu->component, g, (size_t)m->n_events);
     return status <= fmi2Warning ? 0 : 1;
 }
 
-static int crossed(const motion *m)
+static int crossed(const gm_fmu_motion *m)
 {
     for (int i = 0; i < m->n_events; i++)
         if ((m->indicator[i] > 0.0) != m->above[i])
@@ -272,7 +252,7 @@ static int crossed(const motion *m)
     return 0;
 }
 
-static int gears_changed(const motion *m, const gm_motion_input *input)
+static int gears_changed(const gm_fmu_motion *m, const gm_motion_input *input)
 {
     return memcmp(m->input.gear, input->gear,
                   (size_t)m->plant->n_paths * sizeof *input->gear) != 0;
@@ -281,7 +261,7 @@ static int gears_changed(const motion *m, const gm_motion_input *input)
 static gm_status handle(void *user, const gm_motion_input *input, double t, double *x,
                         int *changed, gm_error *error)
 {
-    motion *m = user;
+    gm_fmu_motion *m = user;
     *changed = 0;
     if (events(m, input, x, m->indicator))
         return gm_fail(error, GM_ERR_TOOL, "%s: fmi2GetEventIndicators failed at %.9g s",
@@ -299,120 +279,26 @@ static gm_status handle(void *user, const gm_motion_input *input, double t, doub
     return status == GM_OK ? settle(m, x, error) : status;
 }
 
-/* ---- Jacobian ---- */
-
-static int depends(const fmu_state *state, int on)
-{
-    for (int k = 0; k < state->n_dependencies; k++)
-        if (state->dependencies[k] == on)
-            return 1;
-    return state->n_dependencies < 0;
-}
-
-/* The diagonal always belongs to the pattern. */
-static int fill_pattern(const motion *m, int *column_start, int *row)
-{
-    int n = 0;
-    for (int k = 0; k < m->n; k++) {
-        if (column_start)
-            column_start[k] = n;
-        for (int i = 0; i < m->n; i++)
-            if (i == k || depends(&m->fmu->description.states[i], k)) {
-                if (row)
-                    row[n] = i;
-                n++;
-            }
-    }
-    if (column_start)
-        column_start[m->n] = n;
-    return n;
-}
-
-static int entries(const void *user)
-{
-    return fill_pattern(user, NULL, NULL);
-}
-
-static void pattern(const void *user, int *column_start, int *row)
-{
-    (void)fill_pattern(user, column_start, row);
-}
-
-static int derivative(motion *m, fmi2ValueReference by, double *column)
-{
-    const double one = 1.0;
-    return m->fmu->library.GetDirectionalDerivative(m->fmu->component, m->rate_reference,
-                                                    (size_t)m->n, &by, 1, &one,
-                                                    column) > fmi2Warning;
-}
-
-static int column_matters(const motion *m, int k)
-{
-    for (int i = 0; i < m->n; i++)
-        if (depends(&m->fmu->description.states[i], k))
-            return 1;
-    return 0;
-}
-
-static int jacobian(void *user, const gm_motion_input *input, const double *x,
-                    double *value)
-{
-    motion *m = user;
-    int flag = put(m, input, x);
-    for (int k = 0, n = 0; k < m->n && !flag; k++) {
-        int matters = column_matters(m, k);
-        if (matters)
-            flag = derivative(m, m->state_reference[k], m->column);
-        for (int i = 0; i < m->n; i++)
-            if (i == k || depends(&m->fmu->description.states[i], k))
-                value[n++] = matters ? m->column[i] : 0.0;
-    }
-    return flag;
-}
-
-/* The rates are linear in the torques but for losses: a difference of 1 N.m suits. */
-static int torque_difference(motion *m, const gm_motion_input *input, const double *x,
-                             int flange, double *column)
-{
-    gm_motion_input moved = *input;
-    moved.torque[flange] += 1.0;
-    int flag = rates(m, &moved, x, column);
-    if (!flag)
-        flag = rates(m, input, x, m->column);
-    for (int i = 0; i < m->n && !flag; i++)
-        column[i] -= m->column[i];
-    return flag;
-}
-
-static int torque_column(void *user, const gm_motion_input *input, const double *x,
-                         int flange, double *column)
-{
-    motion *m = user;
-    if (!m->plant->directional)
-        return torque_difference(m, input, x, flange, column);
-    return put(m, input, x) || derivative(m, m->tau[flange], column);
-}
-
 /* ---- what is seen ---- */
 
 static int n_states(const void *user)
 {
-    return ((const motion *)user)->n;
+    return ((const gm_fmu_motion *)user)->n;
 }
 
 static int n_events(const void *user)
 {
-    return ((const motion *)user)->n_events;
+    return ((const gm_fmu_motion *)user)->n_events;
 }
 
 static int speed_state(const void *user, int flange)
 {
-    return ((const motion *)user)->speed[flange];
+    return ((const gm_fmu_motion *)user)->speed[flange];
 }
 
 static const char *state_name(const void *user, int i)
 {
-    return ((const motion *)user)->fmu->description.states[i].name;
+    return ((const gm_fmu_motion *)user)->fmu->description.states[i].name;
 }
 
 static double nominal(const char *name)
@@ -428,7 +314,7 @@ static double nominal(const char *name)
 
 static void tolerances(const void *user, double relative, double *absolute)
 {
-    const motion *m = user;
+    const gm_fmu_motion *m = user;
     for (int i = 0; i < m->n; i++)
         absolute[i] = relative * nominal(m->fmu->description.states[i].name);
 }
@@ -436,11 +322,11 @@ static void tolerances(const void *user, double relative, double *absolute)
 static void view(void *user, const gm_motion_input *input, const double *x,
                  gm_motion_view *seen)
 {
-    motion *m = user;
+    gm_fmu_motion *m = user;
     size_t n_flanges = (size_t)m->plant->n_paths + 1;
     double energy[N_VIEW] = {(double)NAN, (double)NAN, (double)NAN};
     *seen = (gm_motion_view){.loss_power = 0.0};
-    if (put(m, input, x) == 0) {
+    if (gm_fmu_motion_put(m, input, x) == 0) {
         (void)m->fmu->library.GetReal(m->fmu->component, m->energy, N_VIEW, energy);
         (void)m->fmu->library.GetReal(m->fmu->component, m->acceleration, n_flanges,
                                       seen->acceleration);
@@ -461,13 +347,15 @@ static int n_signals(const void *user)
 
 #define CALLS                                                                            \
     .create = create, .destroy = destroy, .n_states = n_states, .start = start,          \
-    .tolerances = tolerances, .rates = rates, .torque_column = torque_column,            \
-    .speed_state = speed_state, .n_events = n_events, .events = events,                  \
-    .handle = handle, .view = view, .n_signals = n_signals, .state_name = state_name
+    .tolerances = tolerances, .rates = gm_fmu_motion_rates,                              \
+    .torque_column = gm_fmu_motion_torque_column, .speed_state = speed_state,            \
+    .n_events = n_events, .events = events, .handle = handle, .view = view,              \
+    .n_signals = n_signals, .state_name = state_name
 
 static const gm_dynamics_class with_differences = {CALLS};
 static const gm_dynamics_class with_derivatives = {
-    CALLS, .entries = entries, .pattern = pattern, .jacobian = jacobian};
+    CALLS, .entries = gm_fmu_motion_entries, .pattern = gm_fmu_motion_pattern,
+    .jacobian = gm_fmu_motion_jacobian};
 
 /* ---- the plant ---- */
 

@@ -14,8 +14,9 @@ extern "C" {
 
 typedef struct gm_fmu gm_fmu;
 
-/** Open and instantiate for Co-Simulation. GM_ERR_IO, GM_ERR_FORMAT (not an archive, no modelDescription,
- *  no binary for this platform, entries that would leave the folder), GM_ERR_TOOL. */
+/** Open and instantiate for Co-Simulation. GM_ERR_IO, GM_ERR_FORMAT (not an archive, no
+ *  modelDescription, no binary for this platform, entries that would leave the folder),
+ *  GM_ERR_TOOL. */
 GM_NODISCARD gm_status gm_fmu_open(const char *path, gm_fmu **fmu, gm_error *error);
 /** The same for Model Exchange (fmu_motion.c). */
 GM_NODISCARD gm_status gm_fmu_open_exchange(const char *path, gm_fmu **fmu,
