@@ -328,6 +328,12 @@ class Variation:
         for s in data["synchronisers"].values():
             self.vary(s, "cone_torque_Nm", "cone_radius_mm", "cone_width_mm",
                       "cone_clearance_mm")
+        for gear in self.gears.values():
+            gear["churning"] = self.rng.choice(["none", "changenet_velex", "iso14179_1",
+                                                "iso14179_2"])
+            gear["windage"] = self.rng.random() < 0.3
+        data["jets"] = {"spray": {"gear": self.rng.choice(sorted(self.gears)),
+                                  "flow_l_min": 2.5, "speed_m_s": 0.4}}
         for mesh in data["meshes"].values():
             mesh["loss"] = self.rng.choice([
                 {"minimum_line_load_N_mm": 150.0},

@@ -294,6 +294,7 @@ void gm_description_destroy(gm_description *d)
     gm_free(d->bearings);
     gm_free(d->seals);
     gm_free(d->gaps);
+    gm_free(d->jets);
     gm_free(d->synchronisers);
     gm_free(d->clutches);
     gm_free(d->title);

@@ -29,6 +29,14 @@ gm_speed_torque gm_drag_torque(const gm_gearset *gearset, const gm_drag_element 
         return gm_plates_drag(&drag->plates, oil, w);
     case GM_DRAG_CHURNING:
         return gm_churning_torque(&drag->dip, oil, w);
+    case GM_DRAG_CHURNING_ISO14179_1:
+        return gm_churning_torque_iso14179_1(&drag->dip, oil, w);
+    case GM_DRAG_SPLASH:
+        return gm_splash_torque(&drag->splash, w);
+    case GM_DRAG_WINDAGE:
+        return gm_windage_torque(&drag->windage, w);
+    case GM_DRAG_JET:
+        return gm_jet_torque(&drag->jet, oil, w);
     }
     return (gm_speed_torque){0.0, 0.0};
 }

@@ -9,8 +9,6 @@
 #include <math.h>
 #include <string.h>
 
-#define INFINITE_CLEARANCE 0.0 /* a synchroniser without a clearance has no open drag */
-
 static gm_status no_memory(gm_error *error)
 {
     return gm_fail(error, GM_ERR_MEMORY, "out of memory");
@@ -223,119 +221,6 @@ gm_bearing_load gm_bearing_load_at(const gm_bearing_element *bearing, double w_o
     return load;
 }
 
-/* ---- drags of speed alone ---- */
-
-static void add_seals_and_gaps(gm_gearset *gearset)
-{
-    const gm_description *d = gearset->description;
-    for (int i = 0; i < d->n_seals; i++)
-        gearset->drags[gearset->n_drags++] =
-            (gm_drag_element){.kind = GM_LOSS_SEAL,
-                              .name = d->seals[i].id.name,
-                              .body = d->seals[i].shaft,
-                              .on = d->seals[i].on,
-                              .position = (double)NAN,
-                              .law = GM_DRAG_SEAL,
-                              .seal = d->seals[i].model,
-                              .radius = 0.5 * d->seals[i].diameter};
-    for (int i = 0; i < d->n_gaps; i++)
-        gearset->drags[gearset->n_drags++] =
-            (gm_drag_element){.kind = GM_LOSS_GAP,
-                              .name = d->gaps[i].id.name,
-                              .body = d->gaps[i].inner,
-                              .on = d->gaps[i].outer,
-                              .position = (double)NAN,
-                              .law = GM_DRAG_GAP,
-                              .radius = d->gaps[i].radius,
-                              .length = d->gaps[i].length,
-                              .clearance = d->gaps[i].clearance};
-}
-
-static void add_cones(gm_gearset *gearset)
-{
-    const gm_description *d = gearset->description;
-    for (int i = 0; i < d->n_synchronisers; i++) {
-        const gm_synchroniser *sync = &d->synchronisers[i];
-        for (int k = 0; k < sync->n_wheels && sync->cone_clearance > INFINITE_CLEARANCE;
-             k++)
-            gearset->drags[gearset->n_drags++] =
-                (gm_drag_element){.kind = GM_LOSS_SYNCHRONISER,
-                                  .name = d->wheels[sync->wheels[k]].id.name,
-                                  .body = gearset->wheel_body[sync->wheels[k]],
-                                  .on = sync->shaft,
-                                  .position = d->wheels[sync->wheels[k]].position,
-                                  .law = GM_DRAG_GAP,
-                                  .radius = sync->cone_radius,
-                                  .length = sync->cone_width,
-                                  .clearance = sync->cone_clearance};
-    }
-}
-
-static gm_plates gap_of(const gm_clutch *clutch)
-{
-    return (gm_plates){.n = clutch->surfaces,
-                       .r_i = clutch->inner_radius,
-                       .r_o = clutch->outer_radius,
-                       .h = clutch->clearance,
-                       .feed = isnan(clutch->feed) ? (double)INFINITY : clutch->feed};
-}
-
-/* A closed clutch has no relative speed and so no drag. */
-static void add_clutches(gm_gearset *gearset)
-{
-    const gm_description *d = gearset->description;
-    for (int i = 0; i < d->n_clutches; i++)
-        if (d->clutches[i].surfaces > 0)
-            gearset->drags[gearset->n_drags++] =
-                (gm_drag_element){.kind = GM_LOSS_CLUTCH,
-                                  .name = d->clutches[i].id.name,
-                                  .body = d->clutches[i].shaft,
-                                  .on = d->clutches[i].on,
-                                  .position = (double)NAN,
-                                  .law = GM_DRAG_CLUTCH,
-                                  .plates = gap_of(&d->clutches[i])};
-}
-
-static void add_churning(gm_gearset *gearset)
-{
-    const gm_description *d = gearset->description;
-    for (int w = 0; w < d->n_wheels; w++) {
-        const gm_wheel *wheel = &d->wheels[w];
-        double tip = wheel->normal_module * (0.5 * wheel->teeth / cos(wheel->helix) +
-                                             1.0 + wheel->profile_shift);
-        double depth = d->oil.level - (d->shafts[wheel->shaft].z - tip);
-        if (!wheel->churning || wheel->planets > 0 || isnan(d->oil.level) || depth <= 0.0)
-            continue;
-        gearset->drags[gearset->n_drags++] = (gm_drag_element){
-            .kind = GM_LOSS_CHURNING,
-            .name = wheel->id.name,
-            .body = gearset->wheel_body[w],
-            .on = GM_HOUSING,
-            .position = wheel->position,
-            .law = GM_DRAG_CHURNING,
-            .dip = {.R_p = 0.5 * wheel->normal_module * wheel->teeth / cos(wheel->helix),
-                    .b = wheel->width,
-                    .h = depth,
-                    .V_0 = d->oil.volume}};
-    }
-}
-
-static gm_status make_drags(gm_gearset *gearset, gm_error *error)
-{
-    const gm_description *d = gearset->description;
-    int n = d->n_seals + d->n_gaps + d->n_clutches + d->n_wheels;
-    for (int i = 0; i < d->n_synchronisers; i++)
-        n += d->synchronisers[i].n_wheels;
-    gearset->drags = gm_calloc((size_t)n, sizeof *gearset->drags);
-    if (!gearset->drags)
-        return no_memory(error);
-    add_seals_and_gaps(gearset);
-    add_cones(gearset);
-    add_clutches(gearset);
-    add_churning(gearset);
-    return GM_OK;
-}
-
 /* ---- the whole ---- */
 
 gm_status gm_gearset_create(const gm_description *description, double oil_temperature,
@@ -352,7 +237,7 @@ gm_status gm_gearset_create(const gm_description *description, double oil_temper
     if (status == GM_OK)
         status = make_bearings(g, error);
     if (status == GM_OK)
-        status = make_drags(g, error);
+        status = gm_drags_make(g, error);
     if (status == GM_OK)
         status = gm_gearset_check_inertia(g, error);
     if (status == GM_OK)
@@ -413,6 +298,10 @@ const char *gm_loss_kind_name(gm_loss_kind kind)
         return "concentric shafts";
     case GM_LOSS_CHURNING:
         return "churning";
+    case GM_LOSS_WINDAGE:
+        return "windage";
+    case GM_LOSS_JET:
+        return "oil jets";
     case GM_LOSS_KINDS:
         break;
     }

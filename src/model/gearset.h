@@ -69,7 +69,11 @@ typedef enum gm_drag_law {
     GM_DRAG_SEAL,
     GM_DRAG_GAP, /* Petroff: shaft gaps and open cones */
     GM_DRAG_CLUTCH,
-    GM_DRAG_CHURNING
+    GM_DRAG_CHURNING, /* Changenet and Velex */
+    GM_DRAG_CHURNING_ISO14179_1,
+    GM_DRAG_SPLASH, /* ISO/TR 14179-2, of a mesh */
+    GM_DRAG_WINDAGE,
+    GM_DRAG_JET
 } gm_drag_law;
 
 typedef struct gm_drag_element {
@@ -82,6 +86,9 @@ typedef struct gm_drag_element {
     double radius, length, clearance; /* seal: radius only */
     gm_plates plates;                 /* of a clutch */
     gm_dip dip;
+    gm_splash splash;
+    gm_windage windage;
+    gm_jet_law jet;
 } gm_drag_element;
 
 /** Friction force of a mesh along its line of action, against its rolling speed [N]. */
@@ -112,6 +119,9 @@ struct gm_gearset {
 /** Torque of a drag at relative speed w >= 0 [rad/s]. */
 gm_speed_torque gm_drag_torque(const gm_gearset *gearset, const gm_drag_element *drag,
                                double w);
+
+/** Fill drags; meshes and bodies are there (drags.c). */
+GM_NODISCARD gm_status gm_drags_make(gm_gearset *gearset, gm_error *error);
 
 /** Fill bodies and wheel_body. */
 GM_NODISCARD gm_status gm_bodies_make(gm_gearset *gearset, gm_error *error);

@@ -103,6 +103,14 @@ typedef struct gm_bearing_data {
     /* NAN where not given and not known from the designation */
 } gm_bearing_data;
 
+/** How a gear that dips into the oil churns it. */
+typedef enum gm_churning_model {
+    GM_CHURNING_NONE,
+    GM_CHURNING_CHANGENET_VELEX,
+    GM_CHURNING_ISO14179_1,
+    GM_CHURNING_ISO14179_2 /* counted with its meshes */
+} gm_churning_model;
+
 /** A gear wheel; an idling one turns on its shaft on a bearing of its own. */
 typedef struct gm_wheel {
     gm_label id;
@@ -124,8 +132,9 @@ typedef struct gm_wheel {
     double inertia, mass;  /* NAN: disc from bore to pitch diameter */
     double bore;           /* of that disc; if not given: the shaft's diameter at the
                                 position, of an idling gear its bearing's D [m] */
-    gm_bearing_data bearing; /* of an idling gear */
-    int churning;            /* 1: computed when it dips into the oil */
+    gm_bearing_data bearing;    /* of an idling gear */
+    gm_churning_model churning; /* when it dips into the oil */
+    int windage;                /* 1: computed */
 } gm_wheel;
 
 typedef enum gm_mesh_loss_model {
@@ -197,6 +206,14 @@ typedef struct gm_gap {
     int inner, outer;
     double radius, length, clearance; /* m */
 } gm_gap;
+
+/** An oil jet on a gear. */
+typedef struct gm_jet {
+    gm_label id;
+    int wheel;
+    double flow, speed; /* m3/s, m/s */
+    double factor;      /* of the impulse loss */
+} gm_jet;
 
 /** A synchroniser: sits on a shaft, locks one of its gears at a time. */
 typedef struct gm_synchroniser {
@@ -275,14 +292,15 @@ typedef struct gm_description {
     double speed_max;  /* input, rad/s */
     double torque_max; /* input, N.m */
     gm_oil_part oil;
-    int n_shafts, n_wheels, n_meshes, n_bearings, n_seals, n_gaps, n_synchronisers,
-        n_clutches, n_paths;
+    int n_shafts, n_wheels, n_meshes, n_bearings, n_seals, n_gaps, n_jets,
+        n_synchronisers, n_clutches, n_paths;
     gm_shaft *shafts;
     gm_wheel *wheels;
     gm_mesh *meshes;
     gm_bearing *bearings;
     gm_seal *seals;
     gm_gap *gaps;
+    gm_jet *jets;
     gm_synchroniser *synchronisers;
     gm_clutch *clutches;
     gm_path_part paths[GM_MAX_INPUT_PATHS]; /* "odd" before "even" */

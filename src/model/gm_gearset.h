@@ -114,6 +114,8 @@ typedef enum gm_loss_kind {
     GM_LOSS_CLUTCH,
     GM_LOSS_GAP,
     GM_LOSS_CHURNING,
+    GM_LOSS_WINDAGE,
+    GM_LOSS_JET,
     GM_LOSS_KINDS
 } gm_loss_kind;
 

@@ -38,6 +38,8 @@ static const gm_unit units[] = {
     {"_1_K",     "1/K",   0.0,    1.0,  1.0},
     {"_l",       "l",     0.0,    1.0,  1e3},
     {"_l_min",   "l/min", 0.0,    1.0,  6e4},
+    {"_m_s",     "m/s",   0.0,    1.0,  1.0},
+    {"_N_K",     "N/K",   0.0,    1.0,  1.0},
 };
 
 #define OWNER gm_description
@@ -62,6 +64,7 @@ static const gm_field root_fields[] = {
      .help = "what carries the shafts"},
     {PARTS("seals", gm_schema_seal, seals, n_seals), OPTIONAL,
      .help = "radial shaft seals"},
+    {PARTS("jets", gm_schema_jet, jets, n_jets), OPTIONAL, .help = "oil jets on gears"},
     {PARTS("gaps", gm_schema_gap, gaps, n_gaps), OPTIONAL,
      .help = "oil films between concentric shafts"},
     {PARTS("synchronisers", gm_schema_synchroniser, synchronisers, n_synchronisers),

@@ -27,6 +27,7 @@
 
 extern const gm_section gm_schema_limit, gm_schema_oil;                 /* schema_oil.c */
 extern const gm_section gm_schema_shaft, gm_schema_seal, gm_schema_gap; /* _shafts.c */
+extern const gm_section gm_schema_jet;                                  /* _gears.c */
 extern const gm_section gm_schema_bearing_data, gm_schema_bearing;      /* _bearings.c */
 extern const gm_section gm_schema_gear, gm_schema_mesh;                 /* _gears.c */
 extern const gm_section gm_schema_flanks, gm_schema_dogs;               /* _flanks.c */

@@ -8,6 +8,12 @@
 
 /* clang-format off */
 
+static const gm_choice churnings[] = {{"none", GM_CHURNING_NONE},
+                                      {"changenet_velex", GM_CHURNING_CHANGENET_VELEX},
+                                      {"iso14179_1", GM_CHURNING_ISO14179_1},
+                                      {"iso14179_2", GM_CHURNING_ISO14179_2},
+                                      {NULL, 0}};
+
 #define OWNER gm_wheel
 static const gm_field gear_fields[] = {
     {.key = "shaft", .type = GM_FIELD_REFERENCE, .section = &gm_schema_shaft, AT(shaft),
@@ -44,8 +50,11 @@ static const gm_field gear_fields[] = {
              "gear the outer diameter of its bearing"},
     {.key = "bearing", .type = GM_FIELD_GROUP, .section = &gm_schema_bearing_data,
      AT(bearing), OPTIONAL, .help = "of an idling gear: what it turns on"},
-    {.key = "churning", .type = GM_FIELD_BOOLEAN, AT(churning), DEFAULT("true"),
-     .help = "false: no churning loss even if it dips into the oil"},
+    {.key = "churning", .type = GM_FIELD_CHOICE, .choices = churnings, AT(churning),
+     DEFAULT("changenet_velex"),
+     .help = "loss when it dips into the oil; iso14179_2 is counted with its meshes"},
+    {.key = "windage", .type = GM_FIELD_BOOLEAN, AT(windage), DEFAULT("false"),
+     .help = "true: windage by Maurer, which matters above some 50 m/s"},
     END};
 const gm_section gm_schema_gear = {
     .title = "gears", .word = "gear", .help = "Gear wheels, fixed on a shaft or idling.",
@@ -99,5 +108,21 @@ const gm_section gm_schema_mesh = {
     .title = "meshes", .word = "mesh", .help = "Pairs of gears that mesh.",
     .fields = mesh_fields, .size = sizeof(gm_mesh), .key = GM_KEY_NAME,
     .label = offsetof(gm_mesh, id)};
+#undef OWNER
+
+#define OWNER gm_jet
+static const gm_field jet_fields[] = {
+    {.key = "gear", .type = GM_FIELD_REFERENCE, .section = &gm_schema_gear, AT(wheel),
+     .help = "the gear that it hits"},
+    {NUMBER("flow_l_min", 0, 1000), ABOVE, AT(flow), .help = "oil flow"},
+    {NUMBER("speed_m_s", 0, 100), AT(speed), DEFAULT("0"),
+     .help = "part of the jet's speed against the motion of the teeth"},
+    {NUMBER("factor", 0, 2), ABOVE, AT(factor), DEFAULT("1"),
+     .help = "of the impulse loss; 0.85 to 1"},
+    END};
+const gm_section gm_schema_jet = {
+    .title = "jets", .word = "jet", .help = "Oil jets on gears: impulse loss.",
+    .fields = jet_fields, .size = sizeof(gm_jet), .key = GM_KEY_NAME,
+    .label = offsetof(gm_jet, id)};
 #undef OWNER
 /* clang-format on */

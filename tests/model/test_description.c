@@ -90,7 +90,7 @@ static void example_gears_and_bearings_are_complete(void **state)
     near(g->pressure_angle, 20.0 * PI / 180.0);
     near(g->roughness, 0.5e-6);
     near(g->position, 0.25);
-    assert_true(g->idles && !g->internal && g->churning);
+    assert_true(g->idles && !g->internal && g->churning == GM_CHURNING_CHANGENET_VELEX);
     near(g->bore, 0.042);                    /* outer diameter of its needle bearing */
     near(wheel(d, "g1_drive")->bore, 0.028); /* diameter of its shaft */
     near(wheel(d, "ring")->bore, 0.110);     /* given */

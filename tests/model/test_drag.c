@@ -39,7 +39,7 @@ static void seals_hold_their_torque_at_rest(void **state)
 static void petroff_gaps(void **state)
 {
     (void)state;
-    gm_oil oil = {.eta = 0.0075};
+    gm_oil oil = {.eta = 0.0075, .nu = 9e-6};
     gm_speed_torque T = gm_petroff_torque(18e-3, 25e-3, 30e-6, &oil, 100.);
     check_close("needle gap", T.value, 0.02290221, 1e-6);
     check_close("slope", T.d_speed, T.value / 100., 1e-14);
