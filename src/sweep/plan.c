@@ -160,8 +160,10 @@ static gm_status torque_axis(builder *b, int p, int number, gm_nodes *nodes)
         gm_nodes_power(TORQUE_NODES, max, TORQUE_POWER, nodes);
         gm_nodes_include(TORQUE_FLANK * max, TORQUE_NODES + 1, nodes);
         int n = b->plant->is->kink_torques(b->plant->self, p, number, MAX_KINKS, kinks);
+        /* Two kinks may move their neighbours; more would tear the axis open. */
+        int most = TORQUE_NODES + (n > 2 ? n - 1 : 1);
         for (int k = 0; k < n; k++)
-            gm_nodes_include(kinks[k], TORQUE_NODES + 1, nodes);
+            gm_nodes_include(kinks[k], most, nodes);
     }
     gm_nodes_mirror(nodes);
     return GM_OK;

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-2-Clause
-"""Every file in examples/ could be built: what turns on different axes and does not mesh is
-apart. Parts are the cylinders of shafts, gears with their tip circles (addendum one
+"""Every file in examples/ could be built: what turns on different axes and does not mesh
+is apart. Parts are the cylinders of shafts, gears with their tip circles (addendum one
 module) and bearings of known size."""
 
 import math
@@ -35,7 +35,7 @@ def axes(gearset, gear):
 
 
 def cylinders(gearset):
-    """All parts but gears with internal teeth: name, shaft, axis, from, to, radius, bore."""
+    """All parts but gears with internal teeth."""
     for name, shaft in gearset["shafts"].items():
         for s in shaft["segments"]:
             yield Cylinder(name, name, (shaft["y_mm"], shaft["z_mm"]), s["from_mm"],
@@ -55,8 +55,8 @@ def cylinders(gearset):
 
 
 def gap(a, b):
-    """Distance of two cylinders that overlap along x, beside or inside each other; infinity
-    if they do not overlap. Parts of one shaft, and around one axis, are not looked at."""
+    """Distance of two cylinders that overlap along x, beside or inside each other; else
+    infinity, as for parts of one shaft and parts around one axis."""
     distance = math.dist(a.axis, b.axis)
     if min(a.end, b.end) <= max(a.start, b.start) or a.shaft == b.shaft and \
             a.shaft in (a.name, b.name) or distance == 0:
