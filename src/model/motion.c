@@ -31,7 +31,6 @@ void gm_motion_destroy(gm_motion *motion)
     gm_free(motion->force);
     gm_free(motion->mesh_friction);
     gm_free(motion->bearing_friction);
-    gm_free(motion->bearing_speed);
     gm_free(motion->drag_friction);
     gm_free(motion->torque);
     gm_free(motion->d_radial);
@@ -49,17 +48,16 @@ static gm_status allocate_work(gm_motion *m, gm_error *error)
     m->force = gm_calloc(n_rows, sizeof *m->force);
     m->mesh_friction = gm_calloc(n_meshes, sizeof *m->mesh_friction);
     m->bearing_friction = gm_calloc(n_bearings, sizeof *m->bearing_friction);
-    m->bearing_speed = gm_calloc(n_bearings, sizeof *m->bearing_speed);
     m->drag_friction = gm_calloc(n_drags, sizeof *m->drag_friction);
     m->torque = gm_calloc((size_t)m->n_nodes, sizeof *m->torque);
     m->d_radial = gm_calloc(n_meshes, sizeof *m->d_radial);
     m->d_axial = gm_calloc(n_meshes, sizeof *m->d_axial);
     if (!m->contact || !m->rate || !m->force || !m->mesh_friction ||
-        !m->bearing_friction || !m->bearing_speed || !m->drag_friction || !m->torque ||
-        !m->d_radial || !m->d_axial)
+        !m->bearing_friction || !m->drag_friction || !m->torque || !m->d_radial ||
+        !m->d_axial)
         return gm_fail(error, GM_ERR_MEMORY, "out of memory");
     for (int i = 0; i < m->gearset->n_bearings; i++)
-        m->bearing_speed[i] = gm_bearing_at_speed(&m->gearset->bearings[i].law, 0.0);
+        m->bearing[i].law = gm_bearing_at_speed(&m->gearset->bearings[i].law, 0.0);
     return GM_OK;
 }
 
@@ -144,6 +142,9 @@ int gm_motion_rates(gm_motion *motion, const gm_motion_input *input, const doubl
         dx[i] = motion->torque[i] / motion->inertia[i];
     for (int e = 0; e < motion->n_rows; e++)
         dx[motion->n_nodes + e] = motion->rows[e].closed ? motion->rate[e] : 0.0;
+    for (int i = 0; i < motion->gearset->n_bearings; i++)
+        if (motion->bearing[i].state >= 0)
+            dx[motion->bearing[i].state] = motion->bearing[i].bristle.rate;
     return 0;
 }
 
@@ -151,7 +152,7 @@ int gm_motion_rates(gm_motion *motion, const gm_motion_input *input, const doubl
 
 static double stored_energy(const gm_motion *m, const double *x)
 {
-    double energy = 0.0;
+    double energy = gm_motion_bristle_energy(m);
     for (int i = 0; i < m->n_nodes; i++)
         energy += 0.5 * m->inertia[i] * x[i] * x[i];
     for (int e = 0; e < m->n_rows; e++)

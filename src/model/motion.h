@@ -3,7 +3,7 @@
  * The gearset in motion, as the files motion*.c share it.
  *
  * Order of the states: speeds of the nodes, deflections of the rows (meshes, locks,
- * pieces of shafts that twist).
+ * pieces of shafts that twist), then the bristles of bearings with elastic friction.
  */
 #ifndef MOTION_H
 #define MOTION_H
@@ -49,13 +49,22 @@ static inline double gm_motion_speed_on(const gm_motion_pair *pair, const double
 /** Friction at the present state: acts against `speed` with `torque`. Meshes: force
  *  along the line of action, against the rolling speed. */
 typedef struct gm_motion_friction {
-    double speed;         /* rad/s, m/s; signed */
-    double torque;        /* N.m, N; signed like speed */
-    double d_speed;       /* d torque / d speed */
-    double d_force;       /* meshes: by the row force */
-    double radial, axial; /* bearings: loads, N */
-    double d_radial, d_axial;
+    double speed;   /* rad/s, m/s; signed */
+    double torque;  /* N.m, N */
+    double d_speed; /* d torque / d speed */
+    double d_force; /* meshes: by the row force */
+    double loss;    /* W */
 } gm_motion_friction;
+
+/** What a bearing has besides. */
+typedef struct gm_motion_bearing {
+    gm_motion_pair pair;
+    int state;                /* of its bristle; -1: it has none */
+    gm_bearing_speed law;     /* factors at the present speed */
+    double radial, axial;     /* loads of one of them, N */
+    double d_radial, d_axial; /* d torque / d load */
+    gm_bearing_state bristle;
+} gm_motion_bearing;
 
 /** Compressed columns of the Jacobian; `at` finds an entry by row and column. */
 typedef struct gm_motion_pattern_data {
@@ -68,12 +77,12 @@ typedef struct gm_motion_pattern_data {
 struct gm_motion {
     const gm_gearset *gearset;
     gm_nodes nodes;
-    int n_nodes, n_rows, n_locks, n_states;
+    int n_nodes, n_rows, n_locks, n_bristles, n_states;
     const double *inertia; /* [n_nodes] kg.m2, of the nodes */
     gm_motion_row *rows;
-    gm_row *roll;            /* [n_meshes] over nodes */
-    gm_motion_pair *bearing; /* [n_bearings] */
-    gm_motion_pair *drag;    /* [n_drags] */
+    gm_row *roll;               /* [n_meshes] over nodes */
+    gm_motion_bearing *bearing; /* [n_bearings] */
+    gm_motion_pair *drag;       /* [n_drags] */
     gm_motion_lock *locks;
     int flange[GM_MAX_FLANGES]; /* node */
     int gear[GM_MAX_INPUT_PATHS];
@@ -87,7 +96,6 @@ struct gm_motion {
     double *force;                     /* [n_rows] */
     gm_motion_friction *mesh_friction; /* [n_meshes] */
     gm_motion_friction *bearing_friction;
-    gm_bearing_speed *bearing_speed;
     gm_motion_friction *drag_friction;
     double *torque;             /* [n_nodes] */
     double *d_radial, *d_axial; /* [n_meshes] scratch */
@@ -118,9 +126,11 @@ void gm_motion_forces(gm_motion *motion, const double *x);
 /** After the forces: friction of all elements at x (motion_friction.c). */
 void gm_motion_friction_at(gm_motion *motion, const double *x);
 
-/** Add the torques of friction to torque[n_nodes]; bring its power [W]. */
+/** Add the torques of friction to torque[n_nodes]; its power [W] and what bristles store
+ *  [J]. */
 void gm_motion_add_friction(const gm_motion *motion, double *torque);
 double gm_motion_friction_power(const gm_motion *motion);
+double gm_motion_bristle_energy(const gm_motion *motion);
 
 /** Relative speed of a row. */
 static inline double gm_row_speed(const gm_row *row, const double *w)

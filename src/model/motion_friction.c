@@ -44,27 +44,48 @@ static gm_motion_friction mesh_at(const gm_motion *m, int i, const double *w)
         .speed = v,
         .torque = s.value * f.value,
         .d_speed = slope_of(f.value, f.d_speed / mesh->cos_alpha_wt, v, s),
-        .d_force = s.value * f.d_force};
+        .d_force = s.value * f.d_force,
+        .loss = s.value * f.value * v};
 }
 
-static gm_motion_friction bearing_at(gm_motion *m, int i, const double *w)
+/* A law without a state, with the sign of its speed. */
+static gm_motion_friction sliding_at(const gm_bearing_element *e, gm_motion_bearing *b,
+                                     double v)
+{
+    smooth_sign s = sign_of(v, GM_COULOMB_SPEED);
+    gm_bearing_torque M = gm_bearing_friction(&e->law, &b->law, b->radial, b->axial);
+    b->d_radial = e->count * s.value * M.d_radial;
+    b->d_axial = e->count * s.value * M.d_axial;
+    return (gm_motion_friction){.speed = v,
+                                .torque = e->count * s.value * M.value,
+                                .d_speed = e->count * slope_of(M.value, M.d_speed, v, s),
+                                .loss = e->count * s.value * M.value * v};
+}
+
+static gm_motion_friction elastic_at(const gm_bearing_element *e, gm_motion_bearing *b,
+                                     double v, double z)
+{
+    b->bristle = gm_bearing_elastic(&e->law, &b->law, v, z, b->radial, b->axial);
+    b->d_radial = e->count * b->bristle.torque_radial;
+    b->d_axial = e->count * b->bristle.torque_axial;
+    return (gm_motion_friction){.speed = v,
+                                .torque = e->count * b->bristle.torque,
+                                .d_speed = e->count * b->bristle.torque_speed,
+                                .loss = e->count * b->bristle.loss};
+}
+
+static gm_motion_friction bearing_at(gm_motion *m, int i, const double *x)
 {
     const gm_bearing_element *e = &m->gearset->bearings[i];
-    gm_motion_friction f = {.speed = relative(&m->bearing[i], w)};
-    smooth_sign s = sign_of(f.speed, GM_COULOMB_SPEED);
-    if (fabs(f.speed) != m->bearing_speed[i].w)
-        m->bearing_speed[i] = gm_bearing_at_speed(&e->law, fabs(f.speed));
-    gm_bearing_load load = gm_bearing_load_at(e, gm_motion_speed_on(&m->bearing[i], w),
-                                              m->force, NULL, NULL);
-    gm_bearing_torque M =
-        gm_bearing_friction(&e->law, &m->bearing_speed[i], load.radial, load.axial);
-    f.radial = load.radial;
-    f.axial = load.axial;
-    f.torque = e->count * s.value * M.value;
-    f.d_speed = e->count * slope_of(M.value, M.d_speed, f.speed, s);
-    f.d_radial = e->count * s.value * M.d_radial;
-    f.d_axial = e->count * s.value * M.d_axial;
-    return f;
+    gm_motion_bearing *b = &m->bearing[i];
+    double v = relative(&b->pair, x);
+    gm_bearing_load load =
+        gm_bearing_load_at(e, gm_motion_speed_on(&b->pair, x), m->force, NULL, NULL);
+    b->radial = load.radial;
+    b->axial = load.axial;
+    if (fabs(v) != b->law.w)
+        b->law = gm_bearing_at_speed(&e->law, fabs(v));
+    return b->state >= 0 ? elastic_at(e, b, v, x[b->state]) : sliding_at(e, b, v);
 }
 
 static gm_motion_friction drag_at(const gm_motion *m, int i, const double *w)
@@ -74,7 +95,8 @@ static gm_motion_friction drag_at(const gm_motion *m, int i, const double *w)
     gm_speed_torque M = gm_drag_torque(m->gearset, &m->gearset->drags[i], fabs(v));
     return (gm_motion_friction){.speed = v,
                                 .torque = s.value * M.value,
-                                .d_speed = slope_of(M.value, M.d_speed, v, s)};
+                                .d_speed = slope_of(M.value, M.d_speed, v, s),
+                                .loss = s.value * M.value * v};
 }
 
 void gm_motion_friction_at(gm_motion *motion, const double *x)
@@ -101,7 +123,7 @@ void gm_motion_add_friction(const gm_motion *motion, double *torque)
     for (int i = 0; i < g->n_meshes; i++)
         gm_row_apply(&motion->roll[i], motion->mesh_friction[i].torque, torque);
     for (int i = 0; i < g->n_bearings; i++)
-        apply(&motion->bearing[i], motion->bearing_friction[i].torque, torque);
+        apply(&motion->bearing[i].pair, motion->bearing_friction[i].torque, torque);
     for (int i = 0; i < g->n_drags; i++)
         apply(&motion->drag[i], motion->drag_friction[i].torque, torque);
 }
@@ -110,7 +132,7 @@ static double power_of(int n, const gm_motion_friction *f)
 {
     double power = 0.0;
     for (int i = 0; i < n; i++)
-        power += f[i].torque * f[i].speed;
+        power += f[i].loss;
     return power;
 }
 
@@ -120,4 +142,14 @@ double gm_motion_friction_power(const gm_motion *motion)
     return power_of(g->n_meshes, motion->mesh_friction) +
            power_of(g->n_bearings, motion->bearing_friction) +
            power_of(g->n_drags, motion->drag_friction);
+}
+
+double gm_motion_bristle_energy(const gm_motion *motion)
+{
+    double energy = 0.0;
+    for (int i = 0; i < motion->gearset->n_bearings; i++)
+        if (motion->bearing[i].state >= 0)
+            energy +=
+                motion->gearset->bearings[i].count * motion->bearing[i].bristle.stored;
+    return energy;
 }

@@ -32,17 +32,21 @@ static void put(const sink *to, int i, int j, double v)
         to->value[m->pattern.at[place]] += v;
 }
 
+/* d(rate of state i)/d(force of row e) = a. */
+static void put_row(const sink *to, int i, int e, double a)
+{
+    const gm_motion *m = to->motion;
+    const gm_row *row = &m->rows[e].row;
+    put(to, i, m->n_nodes + e, a * m->contact[e].d_x);
+    for (int k = 0; k < row->n; k++)
+        put(to, i, row->body[k], a * m->contact[e].d_v * row->g[k]);
+}
+
 /* d(torque of node)/d(force of row e) = c. */
 static void put_force(const sink *to, int node, int e, double c)
 {
-    const gm_motion *m = to->motion;
-    if (node < 0)
-        return;
-    const gm_row *row = &m->rows[e].row;
-    double a = c / m->inertia[node];
-    put(to, node, m->n_nodes + e, a * m->contact[e].d_x);
-    for (int k = 0; k < row->n; k++)
-        put(to, node, row->body[k], a * m->contact[e].d_v * row->g[k]);
+    if (node >= 0)
+        put_row(to, node, e, c / to->motion->inertia[node]);
 }
 
 /* d(torque of node)/d(speed of other) = c. */
@@ -92,17 +96,39 @@ static void walk_loads(const sink *to, int i, const double *w)
 {
     const gm_motion *m = to->motion;
     const gm_bearing_element *e = &m->gearset->bearings[i];
-    const gm_motion_friction *f = &m->bearing_friction[i];
-    int node = m->bearing[i].node, on = m->bearing[i].on;
-    gm_bearing_load load = gm_bearing_load_at(e, gm_motion_speed_on(&m->bearing[i], w),
+    const gm_motion_bearing *b = &m->bearing[i];
+    int node = b->pair.node, on = b->pair.on;
+    gm_bearing_load load = gm_bearing_load_at(e, gm_motion_speed_on(&b->pair, w),
                                               m->force, m->d_radial, m->d_axial);
     for (int k = 0; k < e->load.n; k++) {
-        double c = f->d_radial * m->d_radial[k] + f->d_axial * m->d_axial[k];
+        double c = b->d_radial * m->d_radial[k] + b->d_axial * m->d_axial[k];
         put_force(to, node, e->load.mesh[k], -c);
         put_force(to, on, e->load.mesh[k], c);
+        if (b->state >= 0)
+            put_row(to, b->state, e->load.mesh[k],
+                    b->bristle.rate_radial * m->d_radial[k] +
+                        b->bristle.rate_axial * m->d_axial[k]);
     }
-    put_speed(to, node, on, -f->d_radial * load.d_radial_on);
-    put_speed(to, on, on, f->d_radial * load.d_radial_on);
+    put_speed(to, node, on, -b->d_radial * load.d_radial_on);
+    put_speed(to, on, on, b->d_radial * load.d_radial_on);
+    if (b->state >= 0 && on >= 0)
+        put(to, b->state, on, b->bristle.rate_radial * load.d_radial_on);
+}
+
+/* The bristle of an elastic bearing. */
+static void walk_bristle(const sink *to, int i)
+{
+    const gm_motion *m = to->motion;
+    const gm_motion_bearing *b = &m->bearing[i];
+    int node = b->pair.node, on = b->pair.on, count = m->gearset->bearings[i].count;
+    double c = count * b->bristle.torque_state;
+    put(to, b->state, b->state, b->bristle.rate_state);
+    put(to, b->state, node, b->bristle.rate_speed);
+    put(to, node, b->state, -c / m->inertia[node]);
+    if (on < 0)
+        return;
+    put(to, b->state, on, -b->bristle.rate_speed);
+    put(to, on, b->state, c / m->inertia[on]);
 }
 
 static void walk(const sink *to, const double *w)
@@ -113,8 +139,10 @@ static void walk(const sink *to, const double *w)
     walk_rows(to);
     walk_meshes(to);
     for (int i = 0; i < m->gearset->n_bearings; i++) {
-        walk_slope(to, &m->bearing[i], m->bearing_friction[i].d_speed);
+        walk_slope(to, &m->bearing[i].pair, m->bearing_friction[i].d_speed);
         walk_loads(to, i, w);
+        if (m->bearing[i].state >= 0)
+            walk_bristle(to, i);
     }
     for (int i = 0; i < m->gearset->n_drags; i++)
         walk_slope(to, &m->drag[i], m->drag_friction[i].d_speed);

@@ -8,6 +8,8 @@
 
 #include "base/alloc.h"
 
+#include <math.h>
+
 static gm_status allocate(gm_motion *m, gm_error *error)
 {
     const gm_gearset *g = m->gearset;
@@ -18,7 +20,6 @@ static gm_status allocate(gm_motion *m, gm_error *error)
         m->n_locks += d->synchronisers[i].n_wheels;
     m->n_locks += d->n_clutches;
     m->n_rows = g->n_meshes + m->n_locks + m->nodes.n_pieces;
-    m->n_states = m->n_nodes + m->n_rows;
     m->rows = gm_calloc((size_t)m->n_rows, sizeof *m->rows);
     m->roll = gm_calloc((size_t)g->n_meshes, sizeof *m->roll);
     m->bearing = gm_calloc((size_t)g->n_bearings, sizeof *m->bearing);
@@ -84,7 +85,10 @@ static void make_pairs(gm_motion *m)
     const gm_gearset *g = m->gearset;
     for (int i = 0; i < g->n_bearings; i++) {
         const gm_bearing_element *e = &g->bearings[i];
-        m->bearing[i] = pair_at(m, e->body, e->on, e->position);
+        int elastic = e->law.data.friction == GM_FRICTION_ELASTIC;
+        m->bearing[i] = (gm_motion_bearing){
+            .pair = pair_at(m, e->body, e->on, e->position),
+            .state = elastic ? m->n_nodes + m->n_rows + m->n_bristles++ : -1};
     }
     for (int i = 0; i < g->n_drags; i++) {
         const gm_drag_element *e = &g->drags[i];
@@ -105,11 +109,12 @@ gm_status gm_motion_make_rows(gm_motion *motion, gm_error *error)
     make_locks(motion);
     make_pieces(motion);
     make_pairs(motion);
+    motion->n_states = motion->n_nodes + motion->n_rows + motion->n_bristles;
     return GM_OK;
 }
 
 /* Usual values: speeds of a hundredth of the largest input speed, deflections that a
- * tenth of the largest input torque makes on this row alone. */
+ * tenth of the largest input torque makes on this row alone, bristles bent by 1e-4 rad. */
 void gm_motion_tolerances(const gm_motion *motion, double relative, double *absolute)
 {
     const gm_description *d = motion->gearset->description;
@@ -117,8 +122,9 @@ void gm_motion_tolerances(const gm_motion *motion, double relative, double *abso
         absolute[i] = relative * 0.01 * d->speed_max;
     for (int e = 0; e < motion->n_rows; e++) {
         const gm_motion_row *row = &motion->rows[e];
-        double force = 0.1 * d->torque_max / row->row.g[0];
-        absolute[motion->n_nodes + e] =
-            relative * (force < 0.0 ? -force : force) / row->law.stiffness;
+        double force = 0.1 * d->torque_max / fabs(row->row.g[0]);
+        absolute[motion->n_nodes + e] = relative * force / row->law.stiffness;
     }
+    for (int i = 0; i < motion->n_bristles; i++)
+        absolute[motion->n_nodes + motion->n_rows + i] = relative * 1e-4;
 }

@@ -131,10 +131,9 @@ void gm_motion_observe(gm_motion *motion, const gm_motion_input *input, const do
         *value++ = motion->rate[row];
     }
     for (int i = 0; i < g->n_bearings; i++) {
-        const gm_motion_friction *f = &motion->bearing_friction[i];
-        *value++ = f->radial;
-        *value++ = f->axial;
-        *value++ = f->torque;
+        *value++ = motion->bearing[i].radial;
+        *value++ = motion->bearing[i].axial;
+        *value++ = motion->bearing_friction[i].torque;
     }
     for (int i = 0; i < motion->nodes.n_pieces; i++)
         *value++ = motion->force[g->n_meshes + motion->n_locks + i];

@@ -21,24 +21,63 @@ static void make(moving *m, gm_description *d)
     assert_non_null(m->x);
 }
 
-void moving_read(moving *m, const char *path)
+static void read_changed(moving *m, const char *path, void (*change)(gm_description *d))
 {
     gm_error error = {GM_OK, ""};
     memset(m, 0, sizeof *m);
     if (gm_description_read(path, &m->d, &error) != GM_OK)
         fail_msg("%s", error.message);
+    change(m->d);
     make(m, m->d);
+}
+
+static void leave(gm_description *d)
+{
+    (void)d;
+}
+
+void moving_read(moving *m, const char *path)
+{
+    read_changed(m, path, leave);
+}
+
+static void twist(gm_description *d)
+{
+    for (int s = 0; s < d->n_shafts; s++)
+        d->shafts[s].torsion = GM_TORSION_ELASTIC;
 }
 
 void moving_read_twisting(moving *m, const char *path)
 {
-    gm_error error = {GM_OK, ""};
-    memset(m, 0, sizeof *m);
-    if (gm_description_read(path, &m->d, &error) != GM_OK)
-        fail_msg("%s", error.message);
-    for (int s = 0; s < m->d->n_shafts; s++)
-        m->d->shafts[s].torsion = GM_TORSION_ELASTIC;
-    make(m, m->d);
+    read_changed(m, path, twist);
+}
+
+static void make_elastic(gm_bearing_data *data)
+{
+    data->friction = GM_FRICTION_ELASTIC;
+    data->torque = 0.02;
+    data->static_torque = 0.03;
+    data->mu = 2e-3;
+    data->static_mu = 3e-3;
+    data->viscous = 1e-4;
+    data->stribeck = 0.05;
+    data->stiffness = 200.0;
+    data->damping = 1.0;
+}
+
+static void hold(gm_description *d)
+{
+    for (int b = 0; b < d->n_bearings; b++)
+        if (d->bearings[b].data.friction != GM_FRICTION_NONE)
+            make_elastic(&d->bearings[b].data);
+    for (int w = 0; w < d->n_wheels; w++)
+        if (d->wheels[w].idles)
+            make_elastic(&d->wheels[w].bearing);
+}
+
+void moving_read_holding(moving *m, const char *path)
+{
+    read_changed(m, path, hold);
 }
 
 void moving_make(moving *m, gm_description *d)

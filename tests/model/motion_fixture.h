@@ -24,6 +24,8 @@ typedef struct moving {
 void moving_read(moving *m, const char *path);
 /** The same with shafts that twist. */
 void moving_read_twisting(moving *m, const char *path);
+/** The same with elastic friction in all bearings. */
+void moving_read_holding(moving *m, const char *path);
 /** Over a description in memory, which stays the caller's. */
 void moving_make(moving *m, gm_description *d);
 void moving_clear(moving *m);
