@@ -98,6 +98,8 @@ typedef struct meaning {
 static const meaning load_loss_meaning = {
     {"speed of the path [rad/s]", "torque in the direction of rotation [N.m]", NULL},
     "load loss [N.m at the input flange]"};
+static const meaning pin_meaning = {{"speed of the path [rad/s]", NULL, NULL},
+                                    "drag of the input side [N.m at the input flange]"};
 static const meaning drag_meaning = {
     {"speed of the path [rad/s]", "speed of the output [rad/s]", NULL},
     "drag of the neutral shaft [N.m at the input flange]"};
@@ -201,6 +203,9 @@ static void gear_data(writer *w, int p)
             snprintf(name, sizeof name, "load_loss_%d_%s_%s", p,
                      gear_word(w->map, p, g, word), direction_name[d]);
             data2(w, name, &load_loss_meaning, &path->gears[g].load_loss[d]);
+            snprintf(name, sizeof name, "pin_%d_%s_%s", p, gear_word(w->map, p, g, word),
+                     direction_name[d]);
+            data1(w, name, &pin_meaning, &path->gears[g].pin[d]);
         }
 }
 
@@ -243,6 +248,24 @@ static void configuration_data(writer *w)
     }
 }
 
+/* N.m/rad, N.m.s/rad, rad */
+static void compliance_fields(const writer *w, const gm_gear *gear)
+{
+    gm_buffer_text(w->text, ",\n     .stiffness = ");
+    gm_buffer_number(w->text, gear->stiffness);
+    gm_buffer_text(w->text, ", .damping = ");
+    gm_buffer_number(w->text, gear->damping);
+    gm_buffer_text(w->text, ", .lash = ");
+    gm_buffer_number(w->text, gear->lash);
+    gm_buffer_text(w->text, ", .pin = {\n");
+    for (int d = 0; d < 2; d++) {
+        gm_buffer_text(w->text, "        [%s] = ", direction_index[d]);
+        struct1(w, &gear->pin[d]);
+        gm_buffer_text(w->text, ",\n");
+    }
+    gm_buffer_text(w->text, "    }");
+}
+
 static void gear_structs(const writer *w, int p)
 {
     const gm_path *path = &w->reduced->path[p];
@@ -255,6 +278,7 @@ static void gear_structs(const writer *w, int p)
     for (int g = 0; g < path->n_gears; g++) {
         gm_buffer_text(w->text, "    {.number = %d, .ratio = ", path->gears[g].number);
         gm_buffer_number(w->text, path->gears[g].ratio);
+        compliance_fields(w, &path->gears[g]);
         gm_buffer_text(w->text, ", .load_loss = {\n");
         for (int d = 0; d < 2; d++) {
             gm_buffer_text(w->text, "        [%s] = ", direction_index[d]);

@@ -13,7 +13,7 @@
 extern "C" {
 #endif
 
-#define GM_MAP_FORMAT 1 /* version of the file's schema */
+#define GM_MAP_FORMAT 2 /* version of the file's schema */
 #define GM_MAP_TEXT 128
 #define GM_MAP_ANY 99 /* in place of a gear or direction that does not apply */
 
@@ -69,6 +69,10 @@ typedef struct gm_map_gear {
     int number;
     double ratio;       /* identified from the model, signed */
     double ratio_given; /* NAN: not given */
+    double stiffness; /* between flange and output, at the path's flange, N.m/rad; 0: not
+                           known, rigid */
+    double damping;   /* N.m.s/rad */
+    double lash;      /* rad, from flank to flank */
 } gm_map_gear;
 
 typedef struct gm_map_path {

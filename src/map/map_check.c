@@ -72,6 +72,18 @@ gm_status gm_map_check_frame(const gm_map *map, gm_error *error)
     return status;
 }
 
+static gm_status check_compliance(const gm_map_path *path, const gm_map_gear *gear,
+                                  gm_error *error)
+{
+    if (gear->stiffness >= 0.0 && isfinite(gear->stiffness) && gear->damping >= 0.0 &&
+        isfinite(gear->damping) && gear->lash >= 0.0 && isfinite(gear->lash))
+        return GM_OK;
+    return gm_fail(error, GM_ERR_FORMAT,
+                   "path %s: gear %d has the stiffness %g N.m/rad, the damping %g "
+                   "N.m.s/rad and the lash %g rad; none may be negative",
+                   path->name, gear->number, gear->stiffness, gear->damping, gear->lash);
+}
+
 static gm_status check_path(const gm_map_path *path, gm_error *error)
 {
     if (!(path->inertia > 0.0) || !isfinite(path->inertia))
@@ -92,6 +104,9 @@ static gm_status check_path(const gm_map_path *path, gm_error *error)
         if (isinf(gear->ratio_given))
             return gm_fail(error, GM_ERR_FORMAT, "path %s: gear %d: given ratio %g",
                            path->name, gear->number, gear->ratio_given);
+        gm_status status = check_compliance(path, gear, error);
+        if (status != GM_OK)
+            return status;
     }
     return GM_OK;
 }

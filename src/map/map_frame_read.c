@@ -25,7 +25,10 @@ static bool column_gear(sqlite3_stmt *rows, int *path, gm_map_gear *gear)
     return gm_column_int(rows, 0, 0, GM_MAX_PATHS - 1, path) &&
            gm_column_int(rows, 1, -1, GM_MAP_ANY - 1, &gear->number) &&
            gm_column_real(rows, 2, &gear->ratio) &&
-           (!given || gm_column_real(rows, 3, &gear->ratio_given));
+           (!given || gm_column_real(rows, 3, &gear->ratio_given)) &&
+           gm_column_real(rows, 4, &gear->stiffness) &&
+           gm_column_real(rows, 5, &gear->damping) &&
+           gm_column_real(rows, 6, &gear->lash);
 }
 
 static gm_status read_gears(const gm_db *db, gm_map *map, gm_error *error)
@@ -33,9 +36,11 @@ static gm_status read_gears(const gm_db *db, gm_map *map, gm_error *error)
     sqlite3_stmt *rows;
     bool row = true;
     int filled[GM_MAX_PATHS] = {0};
-    gm_status status = gm_db_prepare(
-        db, "SELECT path, gear, ratio, ratio_given FROM gear ORDER BY path, gear", &rows,
-        error);
+    gm_status status =
+        gm_db_prepare(db,
+                      "SELECT path, gear, ratio, ratio_given, stiffness, damping, lash "
+                      "FROM gear ORDER BY path, gear",
+                      &rows, error);
     if (status == GM_OK)
         status = gm_db_next(db, rows, &row, error);
     while (status == GM_OK && row) {

@@ -31,6 +31,9 @@ static gm_status write_gear(const gm_db *db, sqlite3_stmt *put, int p,
     (void)sqlite3_bind_int(put, 2, gear->number);
     (void)sqlite3_bind_double(put, 3, gear->ratio);
     (void)sqlite3_bind_double(put, 4, gear->ratio_given); /* NAN becomes NULL */
+    (void)sqlite3_bind_double(put, 5, gear->stiffness);
+    (void)sqlite3_bind_double(put, 6, gear->damping);
+    (void)sqlite3_bind_double(put, 7, gear->lash);
     return gm_db_step(db, put, error);
 }
 
@@ -42,8 +45,8 @@ gm_status gm_frame_write_paths(const gm_db *db, const gm_map *map, gm_error *err
         status =
             gm_db_prepare(db, "INSERT INTO path VALUES (?, ?, ?, ?)", &put_path, error);
     if (status == GM_OK)
-        status =
-            gm_db_prepare(db, "INSERT INTO gear VALUES (?, ?, ?, ?)", &put_gear, error);
+        status = gm_db_prepare(db, "INSERT INTO gear VALUES (?, ?, ?, ?, ?, ?, ?)",
+                               &put_gear, error);
     for (int p = 0; status == GM_OK && p < map->n_paths; p++) {
         status = write_path(db, put_path, map, p, error);
         for (int g = 0; status == GM_OK && g < map->paths[p].n_gears; g++)

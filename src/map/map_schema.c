@@ -38,6 +38,9 @@ static const schema_table tables[] = {
              "  gear INTEGER NOT NULL CHECK (typeof(gear) = 'integer' AND gear <> 0),\n"
              "  ratio REAL NOT NULL CHECK (typeof(ratio) = 'real' AND ratio <> 0),\n"
              "  ratio_given REAL CHECK (typeof(ratio_given) IN ('real', 'null')),\n"
+             "  stiffness REAL NOT NULL " IS_REAL("stiffness") ",\n"
+             "  damping REAL NOT NULL " IS_REAL("damping") ",\n"
+             "  lash REAL NOT NULL " IS_REAL("lash") ",\n"
              "  PRIMARY KEY (path, gear)\n"
              ") WITHOUT ROWID"},
     {"axis", "CREATE TABLE axis (\n"
@@ -105,6 +108,8 @@ static const char *const views[] = {
 
     "CREATE VIEW v_gear AS SELECT p.name AS path, g.gear, g.ratio, g.ratio_given,\n"
     "  g.ratio / g.ratio_given - 1 AS relative_deviation,\n"
+    "  g.stiffness AS stiffness_Nm_rad, g.damping AS damping_Nms_rad,\n"
+    "  g.lash * 57.2957795130823 AS lash_deg,\n"
     "  p.inertia AS path_inertia_kgm2, p.sync_torque AS sync_torque_Nm\n"
     "FROM gear g JOIN path p ON p.path = g.path",
 

@@ -1,18 +1,24 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
  * The map as the reduced gearset reads it: the same numbers, arranged by gear,
- * configuration and direction. Optional tables that the map does not have (both paths
+ * configuration and direction, and the drag of the input side of each gear, which follows
+ * from N. Optional tables that the map does not have (both paths
  * loaded, coupling, drag jumps) are zero; all others must be there.
  */
 #include "base/alloc.h"
 #include "map/map_rules.h"
 
+#include <math.h>
+
 struct gm_map_view {
     gm_reduced_map reduced;
     gm_gear *gears[GM_MAX_PATHS];
     gm_drag_line *lines[GM_MAX_PATHS];
+    gm_real *pins[GM_MAX_PATHS]; /* [n_gears][2][n], n nodes of the drag's speed axes */
     gm_configuration *configurations;
 };
+
+#define SAME_RATIO 1e-9 /* relative: a drag line belongs to the gear */
 
 /* What the steps below share. */
 typedef struct builder {
@@ -63,6 +69,9 @@ static gm_status build_gear(const builder *b, int p, int g)
     gm_table_key key = gm_table_key_of(GM_LOAD_LOSS);
     gear->number = from->number;
     gear->ratio = from->ratio;
+    gear->stiffness = from->stiffness;
+    gear->damping = from->damping;
+    gear->lash = from->lash;
     key.path = p;
     key.gear[p] = from->number;
     for (int d = 0; d < 2; d++) {
@@ -121,6 +130,45 @@ static gm_status build_drag(const builder *b, int p, gm_symbol symbol,
     return GM_OK;
 }
 
+/* N of path p where it turns with its gear: the table and every line's jump, of its own
+ * line the mean of both sides. dir: of the path; w: |w_p|, at 0 the limit. */
+static double drag_in_gear(const gm_path *path, const gm_gear *gear, int dir, double w)
+{
+    const double sign = dir == GM_BACKWARD ? -1.0 : 1.0, w_o = w / fabs(gear->ratio);
+    const int dir_o = gear->ratio < 0.0 ? 1 - dir : dir;
+    gm_cell2 cell = {0};
+    double sum = gm_table2_at(&path->drag[dir][dir_o], 1, &cell, w, w_o).value;
+    for (int l = 0; l < path->n_lines; l++) {
+        const gm_drag_line *line = &path->lines[l];
+        const double ahead = 1.0 - line->ratio / gear->ratio;
+        gm_cell1 cell_1 = {0};
+        double jump = gm_table1_at(&line->jump[dir_o], 1, &cell_1, w_o).value;
+        if (fabs(ahead) > SAME_RATIO)
+            sum += ahead > 0.0 ? sign * jump / 2.0 : -sign * jump / 2.0;
+    }
+    return sign * sum;
+}
+
+/* What brakes the input side in each gear, on the speed axes of N. */
+static gm_status build_pins(const builder *b, int p)
+{
+    const gm_path *path = &b->view->reduced.path[p];
+    gm_gear *gears = b->view->gears[p];
+    size_t n[2] = {(size_t)path->drag[0][0].x.n, (size_t)path->drag[1][1].x.n};
+    gm_real *value = gm_calloc((size_t)path->n_gears * (n[0] + n[1]), sizeof *value);
+    b->view->pins[p] = value;
+    if (!value)
+        return gm_fail(b->error, GM_ERR_MEMORY, "no memory to view the map");
+    for (int g = 0; g < path->n_gears; g++)
+        for (int d = 0; d < 2; d++) {
+            const gm_axis *x = &path->drag[d][d].x;
+            gears[g].pin[d] = (gm_table1){*x, value};
+            for (int i = 0; i < x->n; i++)
+                *value++ = fmax(0.0, drag_in_gear(path, &gears[g], d, x->x[i]));
+        }
+    return GM_OK;
+}
+
 static gm_status build_path(const builder *b, int p)
 {
     const gm_map_path *from = &b->map->paths[p];
@@ -139,7 +187,9 @@ static gm_status build_path(const builder *b, int p)
         status = build_drag(b, p, GM_DRAG, path->drag);
     if (status == GM_OK)
         status = build_drag(b, p, GM_REACTION, path->reaction);
-    return status == GM_OK ? build_lines(b, p) : status;
+    if (status == GM_OK)
+        status = build_lines(b, p);
+    return status == GM_OK ? build_pins(b, p) : status;
 }
 
 static int gear_number(const gm_map_path *path, int g)
@@ -231,6 +281,7 @@ void gm_map_view_destroy(gm_map_view *view)
     for (int p = 0; p < GM_MAX_PATHS; p++) {
         gm_free(view->gears[p]);
         gm_free(view->lines[p]);
+        gm_free(view->pins[p]);
     }
     gm_free(view->configurations);
     gm_free(view);

@@ -13,6 +13,12 @@ static gm_status kinematics(const void *self, const int *gear, gm_kinematics *k,
     return gm_gearset_kinematics(self, gear, k, error);
 }
 
+static gm_status compliance(const void *self, int p, int number, gm_compliance *c,
+                            gm_error *error)
+{
+    return gm_gearset_compliance(self, p, number, c, error);
+}
+
 static int kink_speeds(const void *self, int p, int number, int n_max, double *speed)
 {
     return gm_gearset_kink_speeds(self, p, number, n_max, speed);
@@ -84,6 +90,7 @@ static void result(const void *work, const double *x, gm_steady_result *r)
 
 static const gm_plant_class builtin_class = {
     .kinematics = kinematics,
+    .compliance = compliance,
     .kink_speeds = kink_speeds,
     .kink_torques = kink_torques,
     .drag_lines = drag_lines,

@@ -46,6 +46,9 @@ typedef struct gm_plant_info {
 typedef struct gm_plant_class {
     gm_status (*kinematics)(const void *self, const int *gear, gm_kinematics *kinematics,
                             gm_error *error);
+    /* How path p gives way in gear `number`; NULL: not known, the path is rigid. */
+    gm_status (*compliance)(const void *self, int p, int number,
+                            gm_compliance *compliance, gm_error *error);
     /* Speeds at path p (rad/s, > 0) in gear `number` where the loss has a kink; returns
        how many of at most n_max were written, ascending. */
     int (*kink_speeds)(const void *self, int p, int number, int n_max, double *speed);

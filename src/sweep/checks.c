@@ -32,6 +32,21 @@ static gm_status check_ratio(const gm_map_path *path, const gm_map_gear *gear,
     return GM_OK;
 }
 
+static gm_status identify_compliance(const gm_plant *plant, int p, gm_map_gear *gear,
+                                     gm_error *error)
+{
+    gm_compliance c = {0.0, 0.0, 0.0};
+    gm_status status = GM_OK;
+    if (plant->is->compliance)
+        status = plant->is->compliance(plant->self, p, gear->number, &c, error);
+    if (status != GM_OK)
+        return status;
+    gear->stiffness = c.stiffness;
+    gear->damping = c.damping;
+    gear->lash = c.lash;
+    return GM_OK;
+}
+
 static gm_status identify_gear(const gm_plant *plant, gm_map *map, int p, int g,
                                double *deviation, gm_error *error)
 {
@@ -46,7 +61,8 @@ static gm_status identify_gear(const gm_plant *plant, gm_map *map, int p, int g,
     to->number = from->number;
     to->ratio = kinematics.ratio[p];
     to->ratio_given = from->ratio_given;
-    return check_ratio(&map->paths[p], to, deviation, error);
+    status = identify_compliance(plant, p, to, error);
+    return status == GM_OK ? check_ratio(&map->paths[p], to, deviation, error) : status;
 }
 
 static gm_status identify_inertias(const gm_plant *plant, gm_map *map, gm_error *error)

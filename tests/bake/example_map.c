@@ -121,7 +121,12 @@ static void add_configurations(gm_map *map)
 
 static void set_gear(gm_map_path *path, int g, int number, double ratio)
 {
-    path->gears[g] = (gm_map_gear){number, ratio, (double)NAN};
+    path->gears[g] = (gm_map_gear){.number = number,
+                                   .ratio = ratio,
+                                   .ratio_given = (double)NAN,
+                                   .stiffness = 2e4,
+                                   .damping = 2.0,
+                                   .lash = 5e-3};
 }
 
 static void set_paths(gm_map *map)

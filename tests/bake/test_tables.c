@@ -70,6 +70,10 @@ static void same_path(const gm_path *a, const gm_path *b)
             assert_int_equal(a->gears[g].number, b->gears[g].number);
             assert_true(a->gears[g].ratio == b->gears[g].ratio);
             same2(&a->gears[g].load_loss[d], &b->gears[g].load_loss[d]);
+            assert_true(a->gears[g].stiffness == b->gears[g].stiffness);
+            assert_true(a->gears[g].damping == b->gears[g].damping);
+            assert_true(a->gears[g].lash == b->gears[g].lash);
+            same1(&a->gears[g].pin[d], &b->gears[g].pin[d]);
         }
         for (int l = 0; l < a->n_lines; l++) {
             assert_true(a->lines[l].ratio == b->lines[l].ratio);
@@ -200,8 +204,9 @@ static void equal_arrays_are_written_once(void **state)
     for (const char *at = text.data; (at = strstr(at, "static const gm_real")); at++)
         n++;
     /* axes: path speed, torque, output speed, relative speed; values: D, N forward and
-       backward, R likewise, two jumps, P, X, C */
-    assert_int_equal(n, 14);
+       backward, R likewise, two jumps, P, X, C, pins of the two gears that differ and of
+       the reverse gear */
+    assert_int_equal(n, 17);
     gm_buffer_clear(&text);
     gm_map_view_destroy(view);
     gm_map_destroy(map);

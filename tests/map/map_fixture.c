@@ -177,6 +177,9 @@ gm_map *fixture_map(const fixture_options *options)
             double size = 3.0 + 10.0 * fixture_random(&state);
             gear->ratio = gear->number < 0 ? -size : size;
             gear->ratio_given = gear->number == 3 ? (double)NAN : gear->ratio * 1.0001;
+            gear->stiffness = 1e4 * (1.0 + fixture_random(&state));
+            gear->damping = 3.0 * fixture_random(&state);
+            gear->lash = 0.01 * fixture_random(&state);
         }
     }
     for (int t = 0; t < map->n_tables; t++)
@@ -218,7 +221,10 @@ static bool same_path(const gm_map_path *a, const gm_map_path *b)
     for (int g = 0; same && g < a->n_gears; g++)
         same = a->gears[g].number == b->gears[g].number &&
                same_number(a->gears[g].ratio, b->gears[g].ratio) &&
-               same_number(a->gears[g].ratio_given, b->gears[g].ratio_given);
+               same_number(a->gears[g].ratio_given, b->gears[g].ratio_given) &&
+               same_number(a->gears[g].stiffness, b->gears[g].stiffness) &&
+               same_number(a->gears[g].damping, b->gears[g].damping) &&
+               same_number(a->gears[g].lash, b->gears[g].lash);
     return same;
 }
 

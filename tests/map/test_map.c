@@ -204,10 +204,17 @@ static void hash_sees_every_number_and_text(void **state)
     char before[65], after[65];
     gm_map *map = fixture_map(&fixture_full);
     gm_map_path *path = &map->paths[1];
-    double *numbers[] = {&map->speed_max,       &map->torque_max,
-                         &map->oil_temperature, &map->inertia_output,
-                         &path->inertia,        &path->sync_torque,
-                         &path->gears[1].ratio, &path->gears[1].ratio_given};
+    double *numbers[] = {&map->speed_max,
+                         &map->torque_max,
+                         &map->oil_temperature,
+                         &map->inertia_output,
+                         &path->inertia,
+                         &path->sync_torque,
+                         &path->gears[1].ratio,
+                         &path->gears[1].ratio_given,
+                         &path->gears[1].stiffness,
+                         &path->gears[1].damping,
+                         &path->gears[1].lash};
     char *texts[] = {map->name, map->title, map->input_sha256, map->options, path->name};
     hash_of(map, before);
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {

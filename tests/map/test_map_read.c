@@ -74,8 +74,8 @@ static void changed_content_is_refused(void **state)
 {
     (void)state;
     static const char *const cases[][2] = {
-        {"PRAGMA user_version = 2", "is a map of format 2, but this version of Gearmap "
-                                    "reads format 1"},
+        {"PRAGMA user_version = 3", "is a map of format 3, but this version of Gearmap "
+                                    "reads format 2"},
         {"PRAGMA application_id = 7", "of another kind"},
         {"DROP TABLE value", "value is missing"},
         {"DROP TABLE gear; CREATE VIEW gear AS SELECT 0 path", "gear is missing"},
@@ -88,6 +88,7 @@ static void changed_content_is_refused(void **state)
         {"UPDATE meta SET value = 'other' WHERE key = 'title'", "content hash"},
         {"UPDATE meta SET value = printf('%.300c', 'x') WHERE key = 'title'", "'title'"},
         {"UPDATE gear SET ratio = ratio * 1.01 WHERE gear = 3", "content hash"},
+        {"UPDATE gear SET lash = 2 * lash WHERE gear = 3", "content hash"},
         {"DELETE FROM gear WHERE gear = 3", "damaged"},
         {"DELETE FROM path WHERE path = 1", "damaged"},
         {"DELETE FROM path", "damaged"},

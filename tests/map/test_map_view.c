@@ -107,6 +107,64 @@ static void shows_lines_that_jump(void **state)
     gm_map_destroy(map);
 }
 
+/* N of a law that the tables hold exactly: dry friction, and one that follows the slip. */
+static double law_of_drag(double w, double w_o)
+{
+    return (w < 0 ? -0.4 : 0.4) + 1e-3 * (w - 2.0 * w_o);
+}
+
+static void set_drag_by_law(gm_map *map)
+{
+    for (int t = 0; t < map->n_tables; t++) {
+        gm_map_table *table = &map->tables[t];
+        const int *dir = table->key.direction;
+        if (table->key.path != 0)
+            continue;
+        for (int i = 0; i < gm_map_table_size(table); i++)
+            if (table->key.symbol == GM_LINE_JUMP)
+                table->value[i] = 0.06;
+            else if (table->key.symbol == GM_DRAG) {
+                double w = table->x[0][i / table->n[1]],
+                       w_o = table->x[1][i % table->n[1]];
+                double s = dir[0] ? -1.0 : 1.0;
+                table->value[i] = law_of_drag(s * (w + 1e-300), dir[1] ? -w_o : w_o);
+            }
+    }
+}
+
+static void what_brakes_the_input_side_follows_from_the_drag(void **state)
+{
+    (void)state;
+    gm_map *map = fixture_map(&fixture_full);
+    set_drag_by_law(map);
+    map->paths[0].gears[1].ratio = fixture_line[0][0] * (1 + 1e-13);
+    gm_map_view *view = view_of(map);
+    const gm_path *path = &gm_map_view_reduced(view)->path[0];
+    for (int g = 0; g < path->n_gears; g++)
+        for (int d = 0; d < 2; d++) {
+            const gm_gear *gear = &path->gears[g];
+            double s = d ? -1.0 : 1.0, jumps = 0.0;
+            for (int l = 0; l < path->n_lines; l++) {
+                bool jumps_here =
+                    path->lines[l].jump[gear->ratio < 0 ? 1 - d : d].x.n > 1;
+                double ahead = 1.0 - path->lines[l].ratio / gear->ratio;
+                if (jumps_here && fabs(ahead) > 1e-6)
+                    jumps += ahead > 0 ? 0.03 : -0.03;
+            }
+            assert_int_equal(gear->pin[d].x.n, path->drag[d][d].x.n);
+            for (int i = 1; i < gear->pin[d].x.n; i++) {
+                double w = s * gear->pin[d].x.x[i];
+                if (fabs(w / gear->ratio) >
+                    path->drag[d][d].y.x[path->drag[d][d].y.n - 1])
+                    continue; /* N is clamped there */
+                assert_true(fabs(gear->pin[d].value[i] -
+                                 (s * law_of_drag(w, w / gear->ratio) + jumps)) < 1e-12);
+            }
+        }
+    gm_map_view_destroy(view);
+    gm_map_destroy(map);
+}
+
 static void numbers_configurations_by_both_gears(void **state)
 {
     (void)state;
@@ -214,7 +272,7 @@ static void allocation_failures_leak_nothing(void **state)
     }
     assert_int_equal(status, GM_OK);
     assert_int_equal(failures,
-                     6); /* view, gears and lines of two paths, configurations */
+                     8); /* view; gears, lines and pins of two paths; configurations */
     gm_map_view_destroy(view);
     gm_map_destroy(map);
 }
@@ -225,6 +283,7 @@ int main(void)
         cmocka_unit_test(shows_gears_with_ratios_and_load_losses),
         cmocka_unit_test(shows_drag_and_reaction_by_both_directions),
         cmocka_unit_test(shows_lines_that_jump),
+        cmocka_unit_test(what_brakes_the_input_side_follows_from_the_drag),
         cmocka_unit_test(numbers_configurations_by_both_gears),
         cmocka_unit_test(optional_tables_may_be_missing),
         cmocka_unit_test(missing_table_is_named),

@@ -282,6 +282,11 @@ static void result(const void *self, const double *x, gm_steady_result *found)
         found->torque[w->flange[i]] = x[i];
 }
 
+gm_compliance synthetic_compliance(int p, int number)
+{
+    return (gm_compliance){1e4 + 1e3 * number, 1.0 + p, 1e-3 * (5 + number)};
+}
+
 static gm_status kinematics(const void *self, const int *gear, gm_kinematics *k,
                             gm_error *error)
 {
@@ -292,6 +297,15 @@ static gm_status kinematics(const void *self, const int *gear, gm_kinematics *k,
         k->ratio[p] = synthetic_ratio(p, gear[p]);
         k->inertia[p] = synthetic_inertia(1 + p);
     }
+    return GM_OK;
+}
+
+static gm_status compliance(const void *self, int p, int number, gm_compliance *c,
+                            gm_error *error)
+{
+    (void)self;
+    (void)error;
+    *c = synthetic_compliance(p, number);
     return GM_OK;
 }
 
@@ -323,9 +337,21 @@ static int kink_speeds(const void *self, int p, int number, int n_max, double *s
 }
 
 static const gm_plant_class synthetic_class = {
-    kinematics,   kink_speeds, kink_torques, drag_lines, work_create,
-    work_destroy, set_point,   size,         entries,    pass,
-    residual,     pattern,     jacobian,     result,
+    .kinematics = kinematics,
+    .compliance = compliance,
+    .kink_speeds = kink_speeds,
+    .kink_torques = kink_torques,
+    .drag_lines = drag_lines,
+    .work_create = work_create,
+    .work_destroy = work_destroy,
+    .set_point = set_point,
+    .size = size,
+    .entries = entries,
+    .pass = pass,
+    .residual = residual,
+    .pattern = pattern,
+    .jacobian = jacobian,
+    .result = result,
 };
 
 void synthetic_init(synthetic *s, int n_paths)

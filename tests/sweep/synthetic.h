@@ -28,6 +28,9 @@ void synthetic_init(synthetic *s, int n_paths);
 
 double synthetic_ratio(int p, int number);
 double synthetic_inertia(int flange);
+
+/** How path p gives way in a gear. */
+gm_compliance synthetic_compliance(int p, int number);
 double synthetic_parasitic(const int *gear, int backward, double w);
 double synthetic_load(const synthetic *s, int p, int number, int backward, double w,
                       double torque);

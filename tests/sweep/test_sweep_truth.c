@@ -280,9 +280,13 @@ static void ratios_and_inertias_are_found(void **state)
     assert_true(two.map->inertia_output == synthetic_inertia(0));
     for (int p = 0; p < 2; p++) {
         assert_true(two.map->paths[p].inertia == synthetic_inertia(1 + p));
-        for (int g = 0; g < 3; g++)
-            assert_true(two.map->paths[p].gears[g].ratio ==
-                        synthetic_ratio(p, two.map->paths[p].gears[g].number));
+        for (int g = 0; g < 3; g++) {
+            const gm_map_gear *gear = &two.map->paths[p].gears[g];
+            gm_compliance c = synthetic_compliance(p, gear->number);
+            assert_true(gear->ratio == synthetic_ratio(p, gear->number));
+            assert_true(gear->stiffness == c.stiffness && gear->damping == c.damping &&
+                        gear->lash == c.lash);
+        }
     }
     assert_true(two.summary.largest_ratio_deviation == 0.0);
 }
