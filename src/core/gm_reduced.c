@@ -204,24 +204,33 @@ int gm_reduced_step(const gm_reduced_map *map, const gm_reduced_params *params,
 
 /* ---- outputs ---- */
 
+int gm_holding(const gm_drive *d, const gm_solution *solution, gm_terms *t,
+               gm_real *share)
+{
+    gm_real limit = 0, applied = 0;
+    int sign = 1;
+    for (;; sign = -1) {
+        const gm_real excess = gm_excess(d, solution, GM_OUT, sign, t);
+        limit = t->out;
+        for (int p = 0; p < d->n_paths; p++) {
+            limit += d->engaged[p] ? d->ratio[p] * t->path[p].load : t->path[p].reaction;
+        }
+        applied = excess + limit;
+        if (applied * sign >= 0 || sign < 0) {
+            break;
+        }
+    }
+    *share = limit != 0 ? applied / limit : 0;
+    return sign;
+}
+
 /* While friction holds the output, each loss torque carries the same share of its
  * break-away value: what the account of torques needs, and continuous when it lets go. */
 static void share_holding(const gm_drive *d, gm_solution *solution)
 {
-    gm_terms t = {0};
-    gm_real limit = 0, applied = 0;
-    for (int sign = 1; sign >= -1; sign -= 2) {
-        const gm_real excess = gm_excess(d, solution, GM_OUT, sign, &t);
-        limit = t.out;
-        for (int p = 0; p < d->n_paths; p++) {
-            limit += d->engaged[p] ? d->ratio[p] * t.path[p].load : t.path[p].reaction;
-        }
-        applied = excess + limit;
-        if (applied * sign >= 0) {
-            break;
-        }
-    }
-    const gm_real share = limit != 0 ? applied / limit : 0;
+    gm_terms t;
+    gm_real share;
+    gm_holding(d, solution, &t, &share);
     solution->terms.out = share * t.out;
     for (int p = 0; p < d->n_paths; p++) {
         solution->terms.path[p].load = share * t.path[p].load;
@@ -298,12 +307,9 @@ int gm_reduced_outputs_at(const gm_reduced_map *map, const gm_reduced_params *pa
 {
     gm_drive d;
     gm_solution solution;
-    const gm_motion s = gm_load_motion(state);
     if (!gm_inputs_are_finite(map, inputs)) {
         return GM_FLAG_NOT_FINITE;
     }
-    gm_make_drive(map, params, &s, &state->cache, &d);
-    gm_set_span(inputs, 0, 0, &d);
-    gm_solve(&d, &solution);
+    gm_solve_at(map, params, inputs, NULL, state, &d, &solution);
     return gm_observe(&d, &solution, outputs);
 }

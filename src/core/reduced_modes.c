@@ -28,7 +28,8 @@ static int is_shaft(const gm_drive *d, int k)
     return k == GM_OUT || d->own[k];
 }
 
-/* What drives the shafts at this instant; cones act by their mode. */
+/* What drives the shafts at this instant. Cones act by their mode; an engaged path turns
+ * with the output whatever a solver has made of its own state. */
 static void make_drive(const gm_reduced_map *map, const gm_reduced_params *params,
                        const gm_reduced_inputs *in, const gm_reduced_modes *modes,
                        const gm_motion *s, gm_reduced_cache *cache, gm_drive *d)
@@ -38,6 +39,9 @@ static void make_drive(const gm_reduced_map *map, const gm_reduced_params *param
     for (int p = 0; p < map->n_paths; p++) {
         if (s->path[p].mode == GM_PATH_SYNCHRONISING) {
             d->cone[p] = gm_cone_torque(params, p, modes->slip[p]);
+        }
+        if (d->engaged[p]) {
+            d->w[p] = d->ratio[p] * d->w[GM_OUT];
         }
     }
 }
@@ -53,6 +57,21 @@ static void solve_in_modes(const gm_reduced_modes *modes, gm_drive *d, gm_soluti
     gm_solve_given(d, s);
 }
 
+void gm_solve_at(const gm_reduced_map *map, const gm_reduced_params *params,
+                 const gm_reduced_inputs *in, const gm_reduced_modes *modes,
+                 gm_reduced_state *state, gm_drive *d, gm_solution *s)
+{
+    const gm_motion motion = gm_load_motion(state);
+    if (modes) {
+        make_drive(map, params, in, modes, &motion, &state->cache, d);
+        solve_in_modes(modes, d, s);
+        return;
+    }
+    gm_make_drive(map, params, &motion, &state->cache, d);
+    gm_set_span(in, 0, 0, d);
+    gm_solve(d, s);
+}
+
 int gm_reduced_modes_outputs(const gm_reduced_map *map, const gm_reduced_params *params,
                              const gm_reduced_inputs *inputs,
                              const gm_reduced_modes *modes, gm_reduced_state *state,
@@ -60,12 +79,10 @@ int gm_reduced_modes_outputs(const gm_reduced_map *map, const gm_reduced_params 
 {
     gm_drive d;
     gm_solution solution;
-    const gm_motion s = gm_load_motion(state);
     if (!gm_inputs_are_finite(map, inputs)) {
         return GM_FLAG_NOT_FINITE;
     }
-    make_drive(map, params, inputs, modes, &s, &state->cache, &d);
-    solve_in_modes(modes, &d, &solution);
+    gm_solve_at(map, params, inputs, modes, state, &d, &solution);
     return gm_observe(&d, &solution, outputs);
 }
 
@@ -111,8 +128,7 @@ int gm_reduced_modes_indicators(const gm_reduced_map *map,
     if (!gm_inputs_are_finite(map, inputs)) {
         return GM_FLAG_NOT_FINITE;
     }
-    make_drive(map, params, inputs, modes, &s, &state->cache, &d);
-    solve_in_modes(modes, &d, &solution);
+    gm_solve_at(map, params, inputs, modes, state, &d, &solution);
     for (int p = 0; p < n; p++) {
         z[p] = shaft_indicator(&d, &solution, p);
         z[n + p] = s.path[p].mode == GM_PATH_SYNCHRONISING

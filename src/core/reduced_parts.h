@@ -9,7 +9,7 @@
 #ifndef REDUCED_PARTS_H
 #define REDUCED_PARTS_H
 
-#include "gm_reduced.h"
+#include "gm_reduced_modes.h"
 
 /* Sub-steps that a vibration may ask for in one step. */
 enum { GM_PARTS = 4 };
@@ -194,6 +194,10 @@ gm_real gm_cone_torque(const gm_reduced_params *params, int p, gm_real slip);
  *  gm_reduced_outputs_at. The holding torques of *s are completed. */
 int gm_observe(const gm_drive *d, gm_solution *s, gm_reduced_outputs *outputs);
 
+/** While friction holds the output: the direction it would break away in, the terms there
+ *  in *t, and the share of them that it takes. */
+int gm_holding(const gm_drive *d, const gm_solution *s, gm_terms *t, gm_real *share);
+
 /** The part of the state that a step computes, and back. */
 gm_motion gm_load_motion(const gm_reduced_state *state);
 void gm_store_motion(const gm_motion *s, gm_reduced_state *state);
@@ -291,6 +295,11 @@ void gm_solve_given(const gm_drive *d, gm_solution *s);
  *  loss torques at that break-away. */
 gm_real gm_excess(const gm_drive *d, const gm_solution *s, int k, gm_real sign,
                   gm_terms *terms);
+
+/** Motion at this instant in the given modes; NULL: in those that a step would find. */
+void gm_solve_at(const gm_reduced_map *map, const gm_reduced_params *params,
+                 const gm_reduced_inputs *in, const gm_reduced_modes *modes,
+                 gm_reduced_state *state, gm_drive *d, gm_solution *s);
 
 /** What the losses of the solution take from the torque on the output [N.m]. */
 gm_real gm_brake(const gm_drive *d, const gm_solution *s);
