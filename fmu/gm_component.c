@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 #include "gm_component.h"
 
+#include <stddef.h>
+
 static gm_reduced_params params_of(const gm_component *c)
 {
     gm_reduced_params params = {.fidelity = c->value[GM_FIDELITY][0].integer,
@@ -139,6 +141,16 @@ bool gm_component_indicators(const gm_reduced_map *map, gm_component *c, gm_real
     return !(flags & GM_FLAG_NOT_FINITE);
 }
 
+bool gm_component_derivative(const gm_reduced_map *map, gm_component *c,
+                             const gm_reduced_change *by, gm_reduced_outputs *derivative)
+{
+    gm_reduced_params params = params_of(c);
+    gm_reduced_inputs inputs = inputs_of(c);
+    int flags = gm_reduced_derivative(
+        map, &params, &inputs, c->exchange ? &c->modes : NULL, &c->state, by, derivative);
+    return !(flags & GM_FLAG_NOT_FINITE);
+}
+
 void gm_component_move(const gm_reduced_map *map, gm_component *c)
 {
     gm_reduced_state *s = &c->state;
@@ -214,6 +226,7 @@ static bool evaluate(const gm_reduced_map *map, gm_component *c)
     c->value[GM_OUT_OF_MAP][0].integer = is_outside(c, flags);
     for (int p = 0; p < map->n_paths; p++) {
         c->value[GM_PATH_A][p].real = out.a[p];
+        c->value[GM_PATH_TWIST_RATE][p].real = out.twist_rate[p];
         c->value[GM_PATH_INERTIA][p].real = out.inertia[p];
         c->value[GM_PATH_LOSS_TORQUE][p].real = out.path_loss_torque[p];
     }
@@ -235,6 +248,7 @@ static bool is_evaluated(gm_variable_id id)
     case GM_PATH_INERTIA:
     case GM_OUT_OF_MAP:
     case GM_PATH_A:
+    case GM_PATH_TWIST_RATE:
     case GM_PATH_LOSS_TORQUE:
         return true;
     default:

@@ -10,7 +10,7 @@
 #ifndef GM_COMPONENT_H
 #define GM_COMPONENT_H
 
-#include "gm_reduced_modes.h"
+#include "gm_reduced_gradient.h"
 #include "gm_variables.h"
 
 typedef union gm_value {
@@ -46,6 +46,10 @@ int gm_component_update(const gm_reduced_map *map, gm_component *c, bool *jumped
 
 /** Event indicators z[gm_reduced_indicators] of an exchange; false on overflow. */
 bool gm_component_indicators(const gm_reduced_map *map, gm_component *c, gm_real *z);
+
+/** Derivatives of the outputs at this instant along a direction; false on overflow. */
+bool gm_component_derivative(const gm_reduced_map *map, gm_component *c,
+                             const gm_reduced_change *by, gm_reduced_outputs *derivative);
 
 /** Take the values of the variables that are states over into the state. */
 void gm_component_move(const gm_reduced_map *map, gm_component *c);

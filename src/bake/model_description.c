@@ -79,7 +79,7 @@ static void write_common(xml *x, const gm_description_options *options)
     flag(x, "canNotUseMemoryManagementFunctions", false);
     flag(x, "canGetAndSetFMUstate", true);
     flag(x, "canSerializeFMUstate", true);
-    flag(x, "providesDirectionalDerivative", false);
+    flag(x, "providesDirectionalDerivative", true);
     gm_xml_start(x, "SourceFiles");
     for (int i = 0; i < options->n_sources; i++) {
         gm_xml_start(x, "File");

@@ -245,6 +245,7 @@ static void path_outputs(const gm_drive *d, const gm_solution *s, int p,
     const gm_real c = p == 0 ? s->terms.coupling : -s->terms.coupling;
     if (d->elastic[p]) {
         o->inertia[p] = d->inertia[p];
+        o->twist_rate[p] = gm_slip(d, &s->point, p);
         o->a[p] = s->point.a[p];
         o->transmitted[p] = s->point.tau_m[p];
         o->path_loss_torque[p] =
@@ -267,7 +268,7 @@ static void path_outputs(const gm_drive *d, const gm_solution *s, int p,
     o->kinetic_energy += d->inertia[p] * d->w[p] * d->w[p] / 2;
 }
 
-static int outputs_are_finite(const gm_reduced_outputs *o)
+int gm_outputs_are_finite(const gm_reduced_outputs *o)
 {
     int finite = gm_is_finite(o->a_o) && gm_is_finite(o->output_loss_torque) &&
                  gm_is_finite(o->kinetic_energy) && gm_is_finite(o->loss_power);
@@ -294,7 +295,7 @@ int gm_observe(const gm_drive *d, gm_solution *solution, gm_reduced_outputs *out
     for (int p = 0; p < d->n_paths; p++) {
         path_outputs(d, solution, p, &o);
     }
-    if (!outputs_are_finite(&o)) {
+    if (!gm_outputs_are_finite(&o)) {
         return GM_FLAG_NOT_FINITE;
     }
     *outputs = o;

@@ -15,9 +15,9 @@ extern "C" {
 #endif
 
 /** A direction: how fast each of these changes. Speeds of engaged rigid paths follow the
- *  output's, whatever is said of them here. */
+ *  output's, whatever is said of them here; only elastic paths have a twist. */
 typedef struct gm_reduced_change {
-    gm_real w_o, w[GM_MAX_PATHS];               /* speeds */
+    gm_real w_o, w[GM_MAX_PATHS], twist[GM_MAX_PATHS];
     gm_real output_tau, path_tau[GM_MAX_PATHS]; /* flange torques */
     gm_real loss_scale;
 } gm_reduced_change;

@@ -3,45 +3,51 @@
  * Derivatives of the outputs along one direction: gm_reduced_gradient.h. d.. is the
  * change of .. At an instant (d->h = 0) each balance has one unknown:
  *
- *   [J_out + sum_E J_p r q_p] da = dtau_o + sum_E (q_p dg_p - r D_o dw_o) - d(P + X)
- *                                  - sum_N dR               q = r (1 - D_tau) - X_tau
- *   J_n db = dg_n - dN                          dg_0 = dtau_0 - dC, dg_1 = dtau_1 + dC
+ *   [J_out + sum_R J_p r q_p] da = dtau_o + sum_R (q_p dg_p - r D_o dw_o)
+ *       + sum_L r (dT_p - dD_p) - d(P + X) - sum_N dR        q = r (1 - D_tau) - X_tau
+ *   J_p db = dg_p - dN - dT_p                   dg_0 = dtau_0 - dC, dg_1 = dtau_1 + dC
  *
- * with D_o, D_tau, X_tau the tables' gradients. To loss_scale all loss torques are
- * proportional.
+ * over rigid (R), elastic (L) and free (N) paths, with D_o, D_tau, X_tau the tables'
+ * gradients. All loss torques are proportional to loss_scale.
  */
 #include "gm_reduced_gradient.h"
 #include "reduced_parts.h"
 
+/* Read with this factor on losses where the given one is zero: too small to be felt. */
+#define TINY_SCALE 1e-30
+
 /* A direction with all that follows from it. */
 typedef struct change {
     gm_real m[GM_SHAFTS], g[GM_MAX_PATHS]; /* speeds; torques dg */
+    gm_real spring[GM_MAX_PATHS];
     gm_real a[GM_SHAFTS], tau_m[GM_MAX_PATHS];
     gm_terms terms; /* of the values in it; the gradients are unused */
 } change;
 
-/* ---- what follows from a direction ---- */
-
-static gm_terms terms_of(const gm_drive *d, const gm_solution *s)
+static int is_rigid(const gm_drive *d, int p)
 {
-    gm_solution copy = *s;
-    gm_point at = s->point;
-    gm_terms_at(d, &copy, &at);
-    return copy.terms;
+    return d->engaged[p] && !d->elastic[p];
 }
 
-/* Terms at the solution; *unit: what they are there for a loss_scale of 1. */
-static void terms_here(const gm_drive *d, gm_solution *s, gm_terms *unit)
+/* ---- what follows from a direction ---- */
+
+/* The terms of *s at its point; what loss_scale alone changes of them in *t. */
+static void terms_here(const gm_drive *d, gm_solution *s, gm_real d_scale, gm_terms *t)
 {
-    gm_drive of_one = *d;
+    gm_drive read = *d;
+    gm_solution copy = *s;
+    gm_point at = s->point;
+    read.scale = d->scale > TINY_SCALE ? d->scale : TINY_SCALE;
+    gm_terms_at(&read, &copy, &at);
+    const gm_real part = d_scale / read.scale;
+    t->out = part * copy.terms.out;
+    t->coupling = part * copy.terms.coupling;
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        t->path[p].load = part * copy.terms.path[p].load;
+        t->path[p].drag = part * copy.terms.path[p].drag;
+        t->path[p].reaction = part * copy.terms.path[p].reaction;
+    }
     gm_terms_at(d, s, &s->point);
-    of_one.scale = 1;
-    const gm_real coupling = terms_of(&of_one, s).coupling;
-    of_one.coupled = 0; /* the transmitted torques stay what they are */
-    of_one.tau[0] -= s->terms.coupling;
-    of_one.tau[1] += s->terms.coupling;
-    *unit = terms_of(&of_one, s);
-    unit->coupling = coupling;
 }
 
 static void change_speeds(const gm_drive *d, const gm_solution *s, int still,
@@ -50,37 +56,43 @@ static void change_speeds(const gm_drive *d, const gm_solution *s, int still,
     c->m[GM_OUT] = still ? 0 : by->w_o;
     for (int p = 0; p < d->n_paths; p++) {
         const gm_real own = s->held[p] ? 0 : by->w[p];
-        c->m[p] = d->engaged[p] ? d->ratio[p] * c->m[GM_OUT] : own;
+        c->m[p] = d->own[p] ? own : d->ratio[p] * c->m[GM_OUT];
     }
 }
 
-/* Drags and reactions of free paths and the coupling: what follows from speeds alone. */
-static void change_drags(const gm_drive *d, const gm_solution *s, const gm_terms *unit,
-                         const gm_reduced_change *by, change *c)
+static gm_real change_of_slip(const gm_drive *d, const change *c, int p)
 {
-    const gm_terms *t = &s->terms;
-    const gm_real m_o = c->m[GM_OUT], scale = by->loss_scale;
-    const gm_real d_c = t->coupling_w * (c->m[0] - c->m[1]) + scale * unit->coupling;
-    c->terms.coupling = d_c;
-    for (int p = 0; p < d->n_paths; p++) {
-        const gm_path_terms *path = &t->path[p], *one = &unit->path[p];
-        gm_path_terms *to = &c->terms.path[p];
-        c->g[p] = by->path_tau[p] + (p == 0 ? -d_c : d_c);
-        to->drag = path->drag_n * c->m[p] + path->drag_o * m_o + scale * one->drag;
-        to->reaction =
-            path->reaction_n * c->m[p] + path->reaction_o * m_o + scale * one->reaction;
-    }
+    return c->m[p] - d->ratio[p] * c->m[GM_OUT];
 }
 
-/* Changes of the load losses, of P and of X without what the transmitted torques add. */
-static void change_by_speed(const gm_drive *d, const gm_solution *s, const gm_terms *unit,
-                            const gm_reduced_change *by, change *c)
+static gm_spring_gradient spring_here(const gm_drive *d, const gm_solution *s, int p)
 {
+    return gm_spring_gradient_at(d->gear[p], d->twist[p], gm_slip(d, &s->point, p));
+}
+
+/* Load losses, P and X with what the transmitted torque of path p adds. */
+static void add_torque(const gm_solution *s, int p, gm_real d_tau, change *c)
+{
+    c->tau_m[p] = d_tau;
+    c->terms.path[p].load += s->terms.path[p].load_tau * d_tau;
+    c->terms.out += s->terms.out_tau[p] * d_tau;
+}
+
+static void change_path(const gm_drive *d, const gm_solution *s, int p,
+                        const gm_reduced_change *by, change *c)
+{
+    const gm_path_terms *t = &s->terms.path[p];
+    gm_path_terms *to = &c->terms.path[p];
     const gm_real m_o = c->m[GM_OUT];
-    c->terms.out = s->terms.out_o * m_o + by->loss_scale * unit->out;
-    for (int p = 0; p < d->n_paths; p++) {
-        c->terms.path[p].load =
-            s->terms.path[p].load_o * m_o + by->loss_scale * unit->path[p].load;
+    c->g[p] = by->path_tau[p] + (p == 0 ? -c->terms.coupling : c->terms.coupling);
+    to->load += t->load_o * m_o;
+    to->drag += t->drag_n * c->m[p] + t->drag_o * m_o;
+    to->reaction += t->reaction_n * c->m[p] + t->reaction_o * m_o;
+    if (d->elastic[p]) {
+        const gm_spring_gradient spring = spring_here(d, s, p);
+        c->spring[p] = spring.torque_twist * by->twist[p] +
+                       spring.torque_slip * change_of_slip(d, c, p);
+        add_torque(s, p, s->held[p] ? c->g[p] : c->spring[p] + to->drag, c);
     }
 }
 
@@ -92,27 +104,21 @@ static void change_accelerations(const gm_drive *d, const gm_solution *s, int st
     for (int p = 0; p < d->n_paths; p++) {
         const gm_path_terms *path = &c->terms.path[p];
         const gm_real r = d->ratio[p];
-        if (d->engaged[p]) {
+        if (is_rigid(d, p)) {
             const gm_real q = r * (1 - t->path[p].load_tau) - t->out_tau[p];
             inertia += d->inertia[p] * r * q;
             sum += q * c->g[p] - r * path->load;
         } else {
-            sum -= path->reaction;
-            c->a[p] = s->held[p] ? 0 : (c->g[p] - path->drag) / d->inertia[p];
+            const gm_real torque = c->g[p] - path->drag - c->spring[p];
+            sum += d->elastic[p] ? r * (c->spring[p] - path->load) : -path->reaction;
+            c->a[p] = s->held[p] ? 0 : torque / d->inertia[p];
         }
     }
     c->a[GM_OUT] = still ? 0 : sum / inertia;
-}
-
-/* What the transmitted torques add. */
-static void change_by_torque(const gm_drive *d, const gm_solution *s, change *c)
-{
     for (int p = 0; p < d->n_paths; p++) {
-        if (d->engaged[p]) {
+        if (is_rigid(d, p)) {
             c->a[p] = d->ratio[p] * c->a[GM_OUT];
-            c->tau_m[p] = c->g[p] - d->inertia[p] * c->a[p];
-            c->terms.path[p].load += s->terms.path[p].load_tau * c->tau_m[p];
-            c->terms.out += s->terms.out_tau[p] * c->tau_m[p];
+            add_torque(s, p, c->g[p] - d->inertia[p] * c->a[p], c);
         }
     }
 }
@@ -122,36 +128,51 @@ static void change_by_torque(const gm_drive *d, const gm_solution *s, change *c)
 static change follow(const gm_drive *d, gm_solution *s, int still,
                      const gm_reduced_change *by)
 {
-    static const change none = {{0}, {0}, {0}, {0}, {.out = 0}};
+    static const change none = {.m = {0}};
     change c = none;
-    gm_terms unit;
-    terms_here(d, s, &unit);
+    terms_here(d, s, by->loss_scale, &c.terms);
     change_speeds(d, s, still, by, &c);
-    change_drags(d, s, &unit, by, &c);
-    change_by_speed(d, s, &unit, by, &c);
+    c.terms.coupling += s->terms.coupling_w * (c.m[0] - c.m[1]);
+    c.terms.out += s->terms.out_o * c.m[GM_OUT];
+    for (int p = 0; p < d->n_paths; p++) {
+        change_path(d, s, p, by, &c);
+    }
     change_accelerations(d, s, still, by->output_tau, &c);
-    change_by_torque(d, s, &c);
     return c;
 }
 
 /* ---- what is told of it ---- */
 
 /* Product rule on gm_loss_power. */
-static gm_real change_of_power(const gm_drive *d, const gm_solution *s, const change *c)
+static gm_real power_of_path(const gm_drive *d, const gm_solution *s, int p,
+                             const gm_reduced_change *by, const change *c)
+{
+    const gm_path_terms *t = &s->terms.path[p], *dt = &c->terms.path[p];
+    const gm_real r = d->ratio[p], m = s->point.m[p], dm = c->m[p];
+    const gm_real m_o = s->point.m[GM_OUT], dm_o = c->m[GM_OUT];
+    const gm_real drag = dt->drag * m + t->drag * dm;
+    if (d->elastic[p]) {
+        const gm_spring_gradient spring = spring_here(d, s, p);
+        return r * (dt->load * m_o + t->load * dm_o) + drag +
+               spring.power_twist * by->twist[p] +
+               spring.power_slip * change_of_slip(d, c, p);
+    }
+    if (d->engaged[p]) {
+        return dt->load * m + t->load * dm;
+    }
+    return drag + dt->reaction * m_o + t->reaction * dm_o +
+           d->cone[p] * change_of_slip(d, c, p);
+}
+
+static gm_real change_of_power(const gm_drive *d, const gm_solution *s,
+                               const gm_reduced_change *by, const change *c)
 {
     const gm_terms *t = &s->terms, *dt = &c->terms;
     const gm_real *m = s->point.m, *dm = c->m;
-    const gm_real m_o = m[GM_OUT], dm_o = dm[GM_OUT];
-    gm_real sum = dt->out * m_o + t->out * dm_o + dt->coupling * (m[0] - m[1]) +
-                  t->coupling * (dm[0] - dm[1]);
+    gm_real sum = dt->out * m[GM_OUT] + t->out * dm[GM_OUT] +
+                  dt->coupling * (m[0] - m[1]) + t->coupling * (dm[0] - dm[1]);
     for (int p = 0; p < d->n_paths; p++) {
-        const gm_path_terms *a = &t->path[p], *da = &dt->path[p];
-        if (d->engaged[p]) {
-            sum += da->load * m[p] + a->load * dm[p];
-        } else {
-            sum += da->drag * m[p] + a->drag * dm[p] + da->reaction * m_o +
-                   a->reaction * dm_o + d->cone[p] * (dm[p] - d->ratio[p] * dm_o);
-        }
+        sum += power_of_path(d, s, p, by, c);
     }
     return sum;
 }
@@ -178,7 +199,8 @@ static void change_holding(const gm_drive *d, const gm_solution *s,
     loose.held[GM_OUT] = 0;
     const change at = follow(d, &loose, 1, by);
     for (int p = 0; p < d->n_paths; p++) {
-        d_applied += d->engaged[p] ? d->ratio[p] * at.g[p] : 0;
+        const gm_real torque = d->elastic[p] ? at.spring[p] : at.g[p];
+        d_applied += d->engaged[p] ? d->ratio[p] * torque : 0;
     }
     const gm_real limit = sum_on_output(d, &t);
     const gm_real d_share =
@@ -191,20 +213,35 @@ static void change_holding(const gm_drive *d, const gm_solution *s,
     }
 }
 
+/* What an elastic path loses at its flange, and what it stores. */
+static void tell_elastic(const gm_drive *d, const gm_solution *s, int p, const change *c,
+                         const gm_reduced_change *by, gm_reduced_outputs *o)
+{
+    const gm_path_terms *t = &c->terms.path[p];
+    const gm_real twist = d->twist[p];
+    const gm_real e = gm_not_below_zero(gm_abs(twist) - d->gear[p]->lash / 2);
+    o->twist_rate[p] = change_of_slip(d, c, p);
+    o->path_loss_torque[p] = t->load + (s->held[p] ? c->g[p] - c->spring[p] : t->drag);
+    o->elastic_energy += d->gear[p]->stiffness * (twist < 0 ? -e : e) * by->twist[p];
+    o->kinetic_energy += d->inertia[p] * d->w[p] * c->m[p];
+}
+
 static void tell_path(const gm_drive *d, const gm_solution *s, int p, const change *c,
                       const gm_reduced_change *by, gm_reduced_outputs *o)
 {
     const gm_path_terms *t = &c->terms.path[p];
     const gm_real d_c = p == 0 ? c->terms.coupling : -c->terms.coupling;
     o->a[p] = c->a[p];
-    if (d->engaged[p]) {
-        o->transmitted[p] = c->tau_m[p];
+    o->transmitted[p] = c->tau_m[p];
+    if (d->elastic[p]) {
+        tell_elastic(d, s, p, c, by, o);
+    } else if (d->engaged[p]) {
         o->path_loss_torque[p] = t->load;
-        return;
+    } else {
+        o->path_loss_torque[p] = s->held[p] ? by->path_tau[p] : t->drag + d_c;
+        o->output_loss_torque += t->reaction;
+        o->kinetic_energy += d->inertia[p] * d->w[p] * c->m[p];
     }
-    o->path_loss_torque[p] = s->held[p] ? by->path_tau[p] : t->drag + d_c;
-    o->output_loss_torque += t->reaction;
-    o->kinetic_energy += d->inertia[p] * d->w[p] * c->m[p];
 }
 
 int gm_reduced_derivative(const gm_reduced_map *map, const gm_reduced_params *params,
@@ -221,7 +258,7 @@ int gm_reduced_derivative(const gm_reduced_map *map, const gm_reduced_params *pa
     }
     gm_solve_at(map, params, inputs, modes, state, &d, &s);
     change c = follow(&d, &s, s.held[GM_OUT], by);
-    o.loss_power = change_of_power(&d, &s, &c);
+    o.loss_power = change_of_power(&d, &s, by, &c);
     if (s.held[GM_OUT]) {
         change_holding(&d, &s, by, &c);
     }
@@ -231,8 +268,7 @@ int gm_reduced_derivative(const gm_reduced_map *map, const gm_reduced_params *pa
     for (int p = 0; p < d.n_paths; p++) {
         tell_path(&d, &s, p, &c, by, &o);
     }
-    if (!gm_is_finite(o.a_o + o.a[0] + o.a[1] + o.loss_power + o.kinetic_energy +
-                      o.output_loss_torque)) {
+    if (!gm_outputs_are_finite(&o)) {
         return GM_FLAG_NOT_FINITE;
     }
     *derivative = o;

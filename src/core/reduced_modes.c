@@ -28,8 +28,7 @@ static int is_shaft(const gm_drive *d, int k)
     return k == GM_OUT || d->own[k];
 }
 
-/* What drives the shafts at this instant. Cones act by their mode; an engaged path turns
- * with the output whatever a solver has made of its own state. */
+/* What drives the shafts at this instant. Cones act by their mode. */
 static void make_drive(const gm_reduced_map *map, const gm_reduced_params *params,
                        const gm_reduced_inputs *in, const gm_reduced_modes *modes,
                        const gm_motion *s, gm_reduced_cache *cache, gm_drive *d)
@@ -40,12 +39,11 @@ static void make_drive(const gm_reduced_map *map, const gm_reduced_params *param
         if (s->path[p].mode == GM_PATH_SYNCHRONISING) {
             d->cone[p] = gm_cone_torque(params, p, modes->slip[p]);
         }
-        if (d->engaged[p]) {
-            d->w[p] = d->ratio[p] * d->w[GM_OUT];
-        }
     }
 }
 
+/* Held shafts stand, and rigid paths turn with the output, whatever a solver has made of
+ * their states. */
 static void solve_in_modes(const gm_reduced_modes *modes, gm_drive *d, gm_solution *s)
 {
     for (int k = 0; k < GM_SHAFTS; k++) {
@@ -53,6 +51,9 @@ static void solve_in_modes(const gm_reduced_modes *modes, gm_drive *d, gm_soluti
         s->sign[k] = modes->direction[k] < 0 ? -1 : 1;
         s->barred[k] = 0;
         d->w[k] = s->held[k] ? 0 : d->w[k];
+    }
+    for (int p = 0; p < d->n_paths; p++) {
+        d->w[p] = d->own[p] ? d->w[p] : d->ratio[p] * d->w[GM_OUT];
     }
     gm_solve_given(d, s);
 }
@@ -225,7 +226,8 @@ static int has_jumped(const gm_reduced_map *map, const gm_reduced_state *before,
 {
     int jumped = s->w_o != before->w_o || s->loss_energy != before->loss_energy;
     for (int p = 0; p < map->n_paths; p++) {
-        jumped |= s->path[p].w != before->path[p].w;
+        jumped |= s->path[p].w != before->path[p].w ||
+                  s->path[p].twist != before->path[p].twist;
     }
     return jumped;
 }

@@ -40,6 +40,15 @@ typedef struct gm_spring {
 /** Mean torque of a gear's spring from a twist on [rad]. */
 gm_spring gm_spring_at(const gm_gear *gear, gm_real twist, const gm_stride *stride);
 
+/* How it changes at an instant. */
+typedef struct gm_spring_gradient {
+    gm_real torque_twist, torque_slip; /* N.m/rad, N.m.s/rad */
+    gm_real power_twist, power_slip;   /* W/rad, W.s/rad */
+} gm_spring_gradient;
+
+gm_spring_gradient gm_spring_gradient_at(const gm_gear *gear, gm_real twist,
+                                         gm_real slip);
+
 /* How the slips of elastic paths yield to their springs: slip_p = free_p - sum_q
  * y[p][q] (T_q - reference_q). */
 typedef struct gm_yield {
@@ -193,6 +202,9 @@ gm_real gm_cone_torque(const gm_reduced_params *params, int p, gm_real slip);
 /** What can be observed of a solution at an instant (d->h = 0); flags as
  *  gm_reduced_outputs_at. The holding torques of *s are completed. */
 int gm_observe(const gm_drive *d, gm_solution *s, gm_reduced_outputs *outputs);
+
+/** Whether all of them are numbers. */
+int gm_outputs_are_finite(const gm_reduced_outputs *o);
 
 /** While friction holds the output: the direction it would break away in, the terms there
  *  in *t, and the share of them that it takes. */

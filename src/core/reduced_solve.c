@@ -343,7 +343,7 @@ static void first_place(const gm_drive *d, gm_solution *s, gm_point *at)
     at->a[GM_OUT] = stays ? 0 : (driving_torque(d) - d->brake) / d->inertia[GM_OUT];
     set_speeds(d, at);
     for (int p = 0; p < GM_MAX_PATHS; p++) {
-        at->spring[p] = 0;
+        at->spring[p] = s->slip[p] = 0;
         if (d->elastic[p]) {
             const gm_stride stride = {d->h, gm_slip(d, at, p), d->late};
             s->slip[p] = stride.slip;

@@ -90,6 +90,30 @@ gm_spring gm_spring_at(const gm_gear *gear, gm_real twist, const gm_stride *stri
     return t;
 }
 
+gm_spring_gradient gm_spring_gradient_at(const gm_gear *gear, gm_real twist, gm_real slip)
+{
+    const gm_real k = gear->stiffness, side = twist < 0 ? -1 : 1, in = side * slip;
+    const gm_real force = k * (side * twist - gear->lash / 2),
+                  damper = gear->damping * in;
+    gm_spring_gradient g = {0, 0, 0, 0};
+    if (force <= 0) {
+        return g;
+    }
+    if (damper >= force) {
+        g.torque_twist = 2 * k;
+        g.power_twist = k * slip;
+        g.power_slip = side * force;
+    } else if (damper <= -force) {
+        g.power_twist = -k * slip;
+        g.power_slip = -side * force;
+    } else {
+        g.torque_twist = k;
+        g.torque_slip = gear->damping;
+        g.power_slip = 2 * gear->damping * slip;
+    }
+    return g;
+}
+
 gm_real gm_spring_energy(const gm_gear *gear, gm_real twist)
 {
     const gm_real e = gm_not_below_zero(gm_abs(twist) - gear->lash / 2);

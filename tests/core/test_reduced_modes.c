@@ -85,7 +85,14 @@ static double random_speed(unsigned *seed, double most)
 static void random_state(unsigned *seed)
 {
     const double w[2] = {random_speed(seed, 400), random_speed(seed, 400)};
+    f.params.fidelity = hand_random(seed) < 0.5 ? GM_RIGID : GM_LASH;
     gm_reduced_start(&f.m.map, &f.in, random_speed(seed, 60), w, &f.s);
+    for (int p = 0; p < 2 && f.params.fidelity == GM_LASH; p++) {
+        if (f.s.path[p].mode == GM_PATH_ENGAGED) {
+            f.s.path[p].w += random_speed(seed, 3);
+            f.s.path[p].twist = random_speed(seed, 0.02);
+        }
+    }
 }
 
 /* ---- one pass ---- */
