@@ -16,12 +16,18 @@
 /* Read with this factor on losses where the given one is zero: too small to be felt. */
 #define TINY_SCALE 1e-30
 
+/* Loss torques; those of the same name in gm_terms. */
+typedef struct losses {
+    gm_real out, coupling;
+    gm_real load[GM_MAX_PATHS], drag[GM_MAX_PATHS], reaction[GM_MAX_PATHS];
+} losses;
+
 /* A direction with all that follows from it. */
 typedef struct change {
     gm_real m[GM_SHAFTS], g[GM_MAX_PATHS]; /* speeds; torques dg */
     gm_real spring[GM_MAX_PATHS];
     gm_real a[GM_SHAFTS], tau_m[GM_MAX_PATHS];
-    gm_terms terms; /* of the values in it; the gradients are unused */
+    losses terms;
 } change;
 
 static int is_rigid(const gm_drive *d, int p)
@@ -32,20 +38,19 @@ static int is_rigid(const gm_drive *d, int p)
 /* ---- what follows from a direction ---- */
 
 /* The terms of *s at its point; what loss_scale alone changes of them in *t. */
-static void terms_here(const gm_drive *d, gm_solution *s, gm_real d_scale, gm_terms *t)
+static void terms_here(const gm_drive *d, gm_solution *s, gm_real d_scale, losses *t)
 {
     gm_drive read = *d;
-    gm_solution copy = *s;
-    gm_point at = s->point;
+    const gm_terms *at = &s->terms;
     read.scale = d->scale > TINY_SCALE ? d->scale : TINY_SCALE;
-    gm_terms_at(&read, &copy, &at);
+    gm_terms_at(&read, s, &s->point);
     const gm_real part = d_scale / read.scale;
-    t->out = part * copy.terms.out;
-    t->coupling = part * copy.terms.coupling;
+    t->out = part * at->out;
+    t->coupling = part * at->coupling;
     for (int p = 0; p < GM_MAX_PATHS; p++) {
-        t->path[p].load = part * copy.terms.path[p].load;
-        t->path[p].drag = part * copy.terms.path[p].drag;
-        t->path[p].reaction = part * copy.terms.path[p].reaction;
+        t->load[p] = part * at->path[p].load;
+        t->drag[p] = part * at->path[p].drag;
+        t->reaction[p] = part * at->path[p].reaction;
     }
     gm_terms_at(d, s, &s->point);
 }
@@ -74,7 +79,7 @@ static gm_spring_gradient spring_here(const gm_drive *d, const gm_solution *s, i
 static void add_torque(const gm_solution *s, int p, gm_real d_tau, change *c)
 {
     c->tau_m[p] = d_tau;
-    c->terms.path[p].load += s->terms.path[p].load_tau * d_tau;
+    c->terms.load[p] += s->terms.path[p].load_tau * d_tau;
     c->terms.out += s->terms.out_tau[p] * d_tau;
 }
 
@@ -82,17 +87,17 @@ static void change_path(const gm_drive *d, const gm_solution *s, int p,
                         const gm_reduced_change *by, change *c)
 {
     const gm_path_terms *t = &s->terms.path[p];
-    gm_path_terms *to = &c->terms.path[p];
+    losses *to = &c->terms;
     const gm_real m_o = c->m[GM_OUT];
     c->g[p] = by->path_tau[p] + (p == 0 ? -c->terms.coupling : c->terms.coupling);
-    to->load += t->load_o * m_o;
-    to->drag += t->drag_n * c->m[p] + t->drag_o * m_o;
-    to->reaction += t->reaction_n * c->m[p] + t->reaction_o * m_o;
+    to->load[p] += t->load_o * m_o;
+    to->drag[p] += t->drag_n * c->m[p] + t->drag_o * m_o;
+    to->reaction[p] += t->reaction_n * c->m[p] + t->reaction_o * m_o;
     if (d->elastic[p]) {
         const gm_spring_gradient spring = spring_here(d, s, p);
         c->spring[p] = spring.torque_twist * by->twist[p] +
                        spring.torque_slip * change_of_slip(d, c, p);
-        add_torque(s, p, s->held[p] ? c->g[p] : c->spring[p] + to->drag, c);
+        add_torque(s, p, s->held[p] ? c->g[p] : c->spring[p] + to->drag[p], c);
     }
 }
 
@@ -102,15 +107,15 @@ static void change_accelerations(const gm_drive *d, const gm_solution *s, int st
     const gm_terms *t = &s->terms;
     gm_real inertia = d->map->inertia_output, sum = tau_o - c->terms.out;
     for (int p = 0; p < d->n_paths; p++) {
-        const gm_path_terms *path = &c->terms.path[p];
+        const losses *to = &c->terms;
         const gm_real r = d->ratio[p];
         if (is_rigid(d, p)) {
             const gm_real q = r * (1 - t->path[p].load_tau) - t->out_tau[p];
             inertia += d->inertia[p] * r * q;
-            sum += q * c->g[p] - r * path->load;
+            sum += q * c->g[p] - r * to->load[p];
         } else {
-            const gm_real torque = c->g[p] - path->drag - c->spring[p];
-            sum += d->elastic[p] ? r * (c->spring[p] - path->load) : -path->reaction;
+            const gm_real torque = c->g[p] - to->drag[p] - c->spring[p];
+            sum += d->elastic[p] ? r * (c->spring[p] - to->load[p]) : -to->reaction[p];
             c->a[p] = s->held[p] ? 0 : torque / d->inertia[p];
         }
     }
@@ -147,27 +152,29 @@ static change follow(const gm_drive *d, gm_solution *s, int still,
 static gm_real power_of_path(const gm_drive *d, const gm_solution *s, int p,
                              const gm_reduced_change *by, const change *c)
 {
-    const gm_path_terms *t = &s->terms.path[p], *dt = &c->terms.path[p];
+    const gm_path_terms *t = &s->terms.path[p];
+    const losses *dt = &c->terms;
     const gm_real r = d->ratio[p], m = s->point.m[p], dm = c->m[p];
     const gm_real m_o = s->point.m[GM_OUT], dm_o = c->m[GM_OUT];
-    const gm_real drag = dt->drag * m + t->drag * dm;
+    const gm_real drag = dt->drag[p] * m + t->drag * dm;
     if (d->elastic[p]) {
         const gm_spring_gradient spring = spring_here(d, s, p);
-        return r * (dt->load * m_o + t->load * dm_o) + drag +
+        return r * (dt->load[p] * m_o + t->load * dm_o) + drag +
                spring.power_twist * by->twist[p] +
                spring.power_slip * change_of_slip(d, c, p);
     }
     if (d->engaged[p]) {
-        return dt->load * m + t->load * dm;
+        return dt->load[p] * m + t->load * dm;
     }
-    return drag + dt->reaction * m_o + t->reaction * dm_o +
+    return drag + dt->reaction[p] * m_o + t->reaction * dm_o +
            d->cone[p] * change_of_slip(d, c, p);
 }
 
 static gm_real change_of_power(const gm_drive *d, const gm_solution *s,
                                const gm_reduced_change *by, const change *c)
 {
-    const gm_terms *t = &s->terms, *dt = &c->terms;
+    const gm_terms *t = &s->terms;
+    const losses *dt = &c->terms;
     const gm_real *m = s->point.m, *dm = c->m;
     gm_real sum = dt->out * m[GM_OUT] + t->out * dm[GM_OUT] +
                   dt->coupling * (m[0] - m[1]) + t->coupling * (dm[0] - dm[1]);
@@ -177,12 +184,22 @@ static gm_real change_of_power(const gm_drive *d, const gm_solution *s,
     return sum;
 }
 
+static losses values_of(const gm_terms *t)
+{
+    const losses values = {t->out,
+                           t->coupling,
+                           {t->path[0].load, t->path[1].load},
+                           {t->path[0].drag, t->path[1].drag},
+                           {t->path[0].reaction, t->path[1].reaction}};
+    return values;
+}
+
 /* Loss torques on the output's balance. */
-static gm_real sum_on_output(const gm_drive *d, const gm_terms *t)
+static gm_real sum_on_output(const gm_drive *d, const losses *t)
 {
     gm_real sum = t->out;
     for (int p = 0; p < d->n_paths; p++) {
-        sum += d->engaged[p] ? d->ratio[p] * t->path[p].load : t->path[p].reaction;
+        sum += d->engaged[p] ? d->ratio[p] * t->load[p] : t->reaction[p];
     }
     return sum;
 }
@@ -192,11 +209,11 @@ static gm_real sum_on_output(const gm_drive *d, const gm_terms *t)
 static void change_holding(const gm_drive *d, const gm_solution *s,
                            const gm_reduced_change *by, change *c)
 {
-    gm_terms t;
-    gm_real share, d_applied = by->output_tau;
     gm_solution loose = *s;
-    loose.sign[GM_OUT] = gm_holding(d, s, &t, &share);
+    gm_real share, d_applied = by->output_tau;
+    loose.sign[GM_OUT] = gm_holding(d, s, &loose.terms, &share);
     loose.held[GM_OUT] = 0;
+    const losses t = values_of(&loose.terms);
     const change at = follow(d, &loose, 1, by);
     for (int p = 0; p < d->n_paths; p++) {
         const gm_real torque = d->elastic[p] ? at.spring[p] : at.g[p];
@@ -207,9 +224,8 @@ static void change_holding(const gm_drive *d, const gm_solution *s,
         limit != 0 ? (d_applied - share * sum_on_output(d, &at.terms)) / limit : 0;
     c->terms.out = share * at.terms.out + d_share * t.out;
     for (int p = 0; p < d->n_paths; p++) {
-        const gm_path_terms *path = &at.terms.path[p];
-        c->terms.path[p].load = share * path->load + d_share * t.path[p].load;
-        c->terms.path[p].reaction = share * path->reaction + d_share * t.path[p].reaction;
+        c->terms.load[p] = share * at.terms.load[p] + d_share * t.load[p];
+        c->terms.reaction[p] = share * at.terms.reaction[p] + d_share * t.reaction[p];
     }
 }
 
@@ -217,11 +233,12 @@ static void change_holding(const gm_drive *d, const gm_solution *s,
 static void tell_elastic(const gm_drive *d, const gm_solution *s, int p, const change *c,
                          const gm_reduced_change *by, gm_reduced_outputs *o)
 {
-    const gm_path_terms *t = &c->terms.path[p];
+    const losses *t = &c->terms;
     const gm_real twist = d->twist[p];
     const gm_real e = gm_not_below_zero(gm_abs(twist) - d->gear[p]->lash / 2);
     o->twist_rate[p] = change_of_slip(d, c, p);
-    o->path_loss_torque[p] = t->load + (s->held[p] ? c->g[p] - c->spring[p] : t->drag);
+    o->path_loss_torque[p] =
+        t->load[p] + (s->held[p] ? c->g[p] - c->spring[p] : t->drag[p]);
     o->elastic_energy += d->gear[p]->stiffness * (twist < 0 ? -e : e) * by->twist[p];
     o->kinetic_energy += d->inertia[p] * d->w[p] * c->m[p];
 }
@@ -229,17 +246,17 @@ static void tell_elastic(const gm_drive *d, const gm_solution *s, int p, const c
 static void tell_path(const gm_drive *d, const gm_solution *s, int p, const change *c,
                       const gm_reduced_change *by, gm_reduced_outputs *o)
 {
-    const gm_path_terms *t = &c->terms.path[p];
+    const losses *t = &c->terms;
     const gm_real d_c = p == 0 ? c->terms.coupling : -c->terms.coupling;
     o->a[p] = c->a[p];
     o->transmitted[p] = c->tau_m[p];
     if (d->elastic[p]) {
         tell_elastic(d, s, p, c, by, o);
     } else if (d->engaged[p]) {
-        o->path_loss_torque[p] = t->load;
+        o->path_loss_torque[p] = t->load[p];
     } else {
-        o->path_loss_torque[p] = s->held[p] ? by->path_tau[p] : t->drag + d_c;
-        o->output_loss_torque += t->reaction;
+        o->path_loss_torque[p] = s->held[p] ? by->path_tau[p] : t->drag[p] + d_c;
+        o->output_loss_torque += t->reaction[p];
         o->kinetic_energy += d->inertia[p] * d->w[p] * c->m[p];
     }
 }
