@@ -58,6 +58,11 @@ GM_NODISCARD gm_status gm_check_point(const gm_gearset_file *file,
                                       const gm_point_request *request,
                                       gm_checked_point *point, gm_error *error);
 void gm_checked_point_clear(gm_checked_point *point);
+/** A part by its kind and name; NULL: none. */
+const gm_element_loss *gm_checked_point_element(const gm_checked_point *point,
+                                                gm_loss_kind kind, const char *name);
+/** 1: the mesh transmits power; 0: it only turns gears that idle. */
+int gm_checked_point_loads(const gm_checked_point *point, const char *mesh);
 /** Power [W] that all parts of a kind lose. */
 double gm_checked_point_power(const gm_checked_point *point, gm_loss_kind kind);
 /** Power out over power in, in the direction of the flow; NAN when nothing comes out. */

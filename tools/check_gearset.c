@@ -11,6 +11,28 @@
 
 #define KELVIN 273.15
 
+/* At full torque and low speed, where the drag of what idles matters least. */
+static gm_status find_flow(const gm_gearset_file *file, int p, int g, gm_power_flow *flow,
+                           gm_error *error)
+{
+    const gm_description *d = file->description;
+    const gm_point_request request = {.gear = d->paths[p].gears[g].number,
+                                      .speed = 0.1 * d->speed_max,
+                                      .torque = d->torque_max};
+    gm_checked_point point;
+    gm_status status = gm_check_point(file, &request, &point, error);
+    if (status != GM_OK)
+        return status;
+    unsigned char *loaded = gm_calloc((size_t)d->n_meshes, 1);
+    for (int m = 0; loaded && m < d->n_meshes; m++)
+        loaded[m] = (unsigned char)gm_checked_point_loads(&point, d->meshes[m].id.name);
+    status = loaded ? gm_power_flow_find(d, p, g, loaded, flow, error)
+                    : gm_fail(error, GM_ERR_MEMORY, "%s: out of memory", d->file);
+    gm_free(loaded);
+    gm_checked_point_clear(&point);
+    return status;
+}
+
 static gm_status identify(const gm_gearset_file *file, int p, int g,
                           gm_checked_gearset *c, gm_error *error)
 {
@@ -24,7 +46,7 @@ static gm_status identify(const gm_gearset_file *file, int p, int g,
     if (status != GM_OK)
         return status;
     gm_checked_gear *found = &c->gears[c->n_gears];
-    status = gm_power_flow_find(file->description, p, g, &found->flow, error);
+    status = find_flow(file, p, g, &found->flow, error);
     if (status != GM_OK)
         return status;
     c->inertia_output = k.inertia_output;

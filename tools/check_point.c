@@ -12,6 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define LOADED 0.01 /* of the largest force; drag of what idles is far below */
+
 static int has_gear(const gm_path_part *path, int number)
 {
     for (int g = 0; g < path->n_gears; g++)
@@ -184,6 +186,25 @@ void gm_checked_point_clear(gm_checked_point *point)
 {
     gm_free(point->elements);
     memset(point, 0, sizeof *point);
+}
+
+const gm_element_loss *gm_checked_point_element(const gm_checked_point *point,
+                                                gm_loss_kind kind, const char *name)
+{
+    for (int i = 0; i < point->n_elements; i++)
+        if (point->elements[i].kind == kind && !strcmp(point->elements[i].name, name))
+            return &point->elements[i];
+    return NULL;
+}
+
+int gm_checked_point_loads(const gm_checked_point *point, const char *mesh)
+{
+    const gm_element_loss *e = gm_checked_point_element(point, GM_LOSS_MESH, mesh);
+    double largest = 0.0;
+    for (int i = 0; i < point->n_elements; i++)
+        if (point->elements[i].kind == GM_LOSS_MESH)
+            largest = fmax(largest, point->elements[i].radial);
+    return e && e->radial > LOADED * largest;
 }
 
 double gm_checked_point_power(const gm_checked_point *point, gm_loss_kind kind)

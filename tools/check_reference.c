@@ -13,7 +13,6 @@
 
 #define RPM_PER_RAD_S 9.549296585513721 /* 60 / (2 pi) */
 #define COLUMNS 8                       /* gears beside each other */
-#define LOADED 0.01 /* of the largest force: below, a mesh only turns gears that idle */
 
 static int ascending(const void *a, const void *b)
 {
@@ -127,24 +126,6 @@ static void print_losses(columns gears, FILE *out)
     print_total(gears, out);
 }
 
-static const gm_element_loss *find(const gm_checked_point *point, gm_loss_kind kind,
-                                   const char *name)
-{
-    for (int i = 0; i < point->n_elements; i++)
-        if (point->elements[i].kind == kind && !strcmp(point->elements[i].name, name))
-            return &point->elements[i];
-    return NULL;
-}
-
-static double largest_force(const gm_checked_point *point)
-{
-    double largest = 0.0;
-    for (int i = 0; i < point->n_elements; i++)
-        if (point->elements[i].kind == GM_LOSS_MESH)
-            largest = fmax(largest, point->elements[i].radial);
-    return largest;
-}
-
 static void print_frequencies(const gm_description *d, columns gears, FILE *out)
 {
     print_heading("teeth meet [Hz] in gear", gears, out);
@@ -152,9 +133,10 @@ static void print_frequencies(const gm_description *d, columns gears, FILE *out)
         const char *name = d->meshes[m].id.name;
         fprintf(out, "  %-22s", name);
         for (int i = 0; i < gears.n; i++) {
-            const gm_element_loss *e = find(&gears.first[i], GM_LOSS_MESH, name);
-            if (e && e->radial > LOADED * largest_force(&gears.first[i]))
-                fprintf(out, " %8.1f", e->frequency);
+            const gm_checked_point *point = &gears.first[i];
+            if (gm_checked_point_loads(point, name))
+                fprintf(out, " %8.1f",
+                        gm_checked_point_element(point, GM_LOSS_MESH, name)->frequency);
             else
                 fprintf(out, " %8s", "-");
         }
@@ -181,7 +163,8 @@ static void print_bearing(const gm_checked_reference *c, const char *name, FILE 
 {
     worst radial = {0.0, 0}, axial = {0.0, 0}, speed = {0.0, 0};
     for (int i = 0; i < c->n_points; i++) {
-        const gm_element_loss *e = find(&c->points[i], GM_LOSS_BEARING, name);
+        const gm_element_loss *e =
+            gm_checked_point_element(&c->points[i], GM_LOSS_BEARING, name);
         int gear = c->points[i].request.gear;
         if (e && e->radial > radial.load)
             radial = (worst){e->radial, gear};

@@ -16,6 +16,7 @@
 typedef struct search {
     const gm_description *d;
     const gm_path_gear *locked[GM_MAX_INPUT_PATHS]; /* what is locked */
+    const unsigned char *loaded;                    /* [n_meshes] */
     int *previous, *queue;                          /* [n] */
     int n, head, tail;
 } search;
@@ -81,7 +82,7 @@ static void visit_neighbours(search *s, int node)
         visit(s, d->wheels[wheel].shaft, node);
     for (int m = 0; m < d->n_meshes; m++)
         for (int side = 0; side < 2; side++)
-            if (d->meshes[m].wheel[side] == wheel)
+            if (s->loaded[m] && d->meshes[m].wheel[side] == wheel)
                 visit(s, d->n_shafts + d->meshes[m].wheel[1 - side], node);
 }
 
@@ -105,10 +106,13 @@ static gm_status collect(const search *s, int target, gm_power_flow *flow,
 }
 
 gm_status gm_power_flow_find(const gm_description *description, int p, int g,
-                             gm_power_flow *flow, gm_error *error)
+                             const unsigned char *loaded, gm_power_flow *flow,
+                             gm_error *error)
 {
     const gm_path_part *path = &description->paths[p];
-    search s = {.d = description, .n = description->n_shafts + description->n_wheels};
+    search s = {.d = description,
+                .loaded = loaded,
+                .n = description->n_shafts + description->n_wheels};
     for (int i = 0; i < description->n_paths; i++) {
         const gm_path_part *other = &description->paths[i];
         s.locked[i] = other->has_neutral ? &other->neutral : &other->gears[0];
