@@ -186,6 +186,8 @@ gm_bearing_speed gm_skf_at_speed(const gm_bearing_law *law, double w)
     speed.d_F_g_rr = rpm * 2. * skf->F_g_rr * n;
     speed.F_g_sl = skf->F_g_sl * n * n;
     speed.d_F_g_sl = rpm * 2. * skf->F_g_sl * n;
+    if (law->bath.flow == 0. && law->bath.viscous == 0.) /* above the oil: no power */
+        return speed;
     gm_power viscous = gm_power_from_zero(n, 0.621, small_n);
     speed.drag = law->bath.flow * n * n + law->bath.viscous * viscous.value;
     speed.d_drag = rpm * (2. * law->bath.flow * n + law->bath.viscous * viscous.slope);
