@@ -77,7 +77,8 @@ static void make_pieces(gm_motion *m)
 
 static gm_motion_pair pair_at(const gm_motion *m, int body, int on, double x)
 {
-    return (gm_motion_pair){gm_node_at(&m->nodes, body, x), gm_node_at(&m->nodes, on, x)};
+    const gm_nodes *nodes = &m->nodes;
+    return (gm_motion_pair){gm_node_at(nodes, body, x), gm_node_at(nodes, on, x)};
 }
 
 static void make_pairs(gm_motion *m)
