@@ -114,16 +114,17 @@ gm_status gm_motion_make_rows(gm_motion *motion, gm_error *error)
     return GM_OK;
 }
 
-/* Usual values: speeds of a hundredth of the largest input speed, deflections that a
- * tenth of the largest input torque makes on this row alone, bristles bent by 1e-4 rad. */
+/* Usual values: differences of speed of three hundredths of the largest input speed,
+ * deflections that the largest input torque makes on this row alone, bristles bent by
+ * 1e-4 rad. */
 void gm_motion_tolerances(const gm_motion *motion, double relative, double *absolute)
 {
     const gm_description *d = motion->gearset->description;
     for (int i = 0; i < motion->n_nodes; i++)
-        absolute[i] = relative * 0.01 * d->speed_max;
+        absolute[i] = relative * 0.03 * d->speed_max;
     for (int e = 0; e < motion->n_rows; e++) {
         const gm_motion_row *row = &motion->rows[e];
-        double force = 0.1 * d->torque_max / fabs(row->row.g[0]);
+        double force = d->torque_max / fabs(row->row.g[0]);
         absolute[motion->n_nodes + e] = relative * force / row->law.stiffness;
     }
     for (int i = 0; i < motion->n_bristles; i++)

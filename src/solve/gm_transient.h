@@ -62,7 +62,8 @@ typedef struct gm_transient_system {
 } gm_transient_system;
 
 typedef struct gm_transient_options {
-    double tolerance; /* relative error of a step; 0: 1e-4 */
+    double tolerance; /* error of a step relative to usual values of each state
+                         (tolerances); to larger values: a hundredth; 0: 3e-4 */
     double step_max;  /* s; 0: any */
     long steps_max;   /* 0: any number */
     double cpu_max;   /* s of processor time; 0: any */
