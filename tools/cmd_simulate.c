@@ -46,9 +46,9 @@ static const gm_option options[] = {
      .help = "which quantities of bodies, meshes and bearings are written beside those "
              "of the flanges: names separated by commas, * for any characters"},
     {.kind = GM_OPTION_QUANTITY, .name = "tolerance", .value = "NUMBER", .unit = "",
-     .low = 1e-10, .high = 1e-2, .fallback = "1e-4",
+     .low = 1e-10, .high = 1e-2, .fallback = "3e-4",
      .offset = offsetof(arguments, tolerance),
-     .help = "relative error of a step"},
+     .help = "error of a step, relative to usual values of speeds and deflections"},
     {.kind = GM_OPTION_QUANTITY, .name = "time-limit", .value = "TIME", .unit = "s",
      .low = 1e-3, .high = 1e9, .offset = offsetof(arguments, time_limit),
      .help = "processor time after which to give up; default: none"},

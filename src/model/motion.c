@@ -26,6 +26,7 @@ void gm_motion_destroy(gm_motion *motion)
     gm_free(motion->pattern.column_start);
     gm_free(motion->pattern.row);
     gm_free(motion->pattern.at);
+    gm_free(motion->x);
     gm_free(motion->contact);
     gm_free(motion->rate);
     gm_free(motion->force);
@@ -43,6 +44,7 @@ static gm_status allocate_work(gm_motion *m, gm_error *error)
     size_t n_rows = (size_t)m->n_rows, n_meshes = (size_t)m->gearset->n_meshes,
            n_bearings = (size_t)m->gearset->n_bearings,
            n_drags = (size_t)m->gearset->n_drags;
+    m->x = gm_calloc((size_t)m->n_states, sizeof *m->x);
     m->contact = gm_calloc(n_rows, sizeof *m->contact);
     m->rate = gm_calloc(n_rows, sizeof *m->rate);
     m->force = gm_calloc(n_rows, sizeof *m->force);
@@ -52,7 +54,7 @@ static gm_status allocate_work(gm_motion *m, gm_error *error)
     m->torque = gm_calloc((size_t)m->n_nodes, sizeof *m->torque);
     m->d_radial = gm_calloc(n_meshes, sizeof *m->d_radial);
     m->d_axial = gm_calloc(n_meshes, sizeof *m->d_axial);
-    if (!m->contact || !m->rate || !m->force || !m->mesh_friction ||
+    if (!m->x || !m->contact || !m->rate || !m->force || !m->mesh_friction ||
         !m->bearing_friction || !m->drag_friction || !m->torque || !m->d_radial ||
         !m->d_axial)
         return gm_fail(error, GM_ERR_MEMORY, "out of memory");
@@ -94,7 +96,7 @@ int gm_motion_speed_state(const gm_motion *motion, int flange)
 
 /* ---- right side ---- */
 
-void gm_motion_forces(gm_motion *motion, const double *x)
+static void forces_at(gm_motion *motion, const double *x)
 {
     const double *deflection = x + motion->n_nodes;
     for (int e = 0; e < motion->n_rows; e++) {
@@ -107,6 +109,17 @@ void gm_motion_forces(gm_motion *motion, const double *x)
             motion->contact[e] = (gm_contact_force){0.0, 0.0, 0.0, 0.0};
         motion->force[e] = motion->contact[e].value;
     }
+}
+
+void gm_motion_evaluate(gm_motion *motion, const double *x)
+{
+    size_t size = (size_t)motion->n_states * sizeof *x;
+    if (motion->known && memcmp(motion->x, x, size) == 0)
+        return;
+    forces_at(motion, x);
+    gm_motion_friction_at(motion, x);
+    memcpy(motion->x, x, size);
+    motion->known = 1;
 }
 
 static void node_torques(gm_motion *m, const gm_motion_input *input)
@@ -135,8 +148,7 @@ int gm_motion_rates(gm_motion *motion, const gm_motion_input *input, const doubl
 {
     if (!finite(motion->n_states, x))
         return 1;
-    gm_motion_forces(motion, x);
-    gm_motion_friction_at(motion, x);
+    gm_motion_evaluate(motion, x);
     node_torques(motion, input);
     for (int i = 0; i < motion->n_nodes; i++)
         dx[i] = motion->torque[i] / motion->inertia[i];
@@ -176,8 +188,7 @@ void gm_motion_view_at(gm_motion *motion, const gm_motion_input *input, const do
 {
     const gm_description *d = motion->gearset->description;
     memset(view, 0, sizeof *view);
-    gm_motion_forces(motion, x);
-    gm_motion_friction_at(motion, x);
+    gm_motion_evaluate(motion, x);
     node_torques(motion, input);
     for (int f = 0; f <= d->n_paths; f++) {
         int node = motion->flange[f];

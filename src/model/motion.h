@@ -90,7 +90,9 @@ struct gm_motion {
     gm_motion_pattern_data pattern;
     int n_signals;
     gm_motion_signal *signals; /* names owned */
-    /* at the state evaluated last */
+    /* at the state evaluated last; known 0: in other modes than now */
+    int known;
+    double *x;                         /* [n_states] */
     gm_contact_force *contact;         /* [n_rows] */
     double *rate;                      /* [n_rows] g . w */
     double *force;                     /* [n_rows] */
@@ -120,8 +122,9 @@ GM_NODISCARD gm_status gm_motion_make_pattern(gm_motion *motion, gm_error *error
 GM_NODISCARD gm_status gm_motion_make_signals(gm_motion *motion, gm_error *error);
 void gm_motion_clear_signals(gm_motion *motion);
 
-/** Forces of all rows at x: rate, contact, force (motion.c). */
-void gm_motion_forces(gm_motion *motion, const double *x);
+/** Forces of all rows and friction of all elements at x: what stands under "evaluated
+ *  last". Nothing is done where that is known. */
+void gm_motion_evaluate(gm_motion *motion, const double *x);
 
 /** After the forces: friction of all elements at x (motion_friction.c). */
 void gm_motion_friction_at(gm_motion *motion, const double *x);

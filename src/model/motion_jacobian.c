@@ -209,8 +209,7 @@ int gm_motion_jacobian(gm_motion *motion, const gm_motion_input *input, const do
                        double *value)
 {
     (void)input; /* flange torques are added: no entry depends on them */
-    gm_motion_forces(motion, x);
-    gm_motion_friction_at(motion, x);
+    gm_motion_evaluate(motion, x);
     memset(value, 0, (size_t)motion->pattern.n_entries * sizeof *value);
     walk(&(sink){.motion = motion, .value = value}, x);
     return 0;

@@ -49,6 +49,7 @@ static void set_mode(gm_motion *m, gm_motion_lock *lock, gm_lock_mode mode)
 {
     lock->mode = mode;
     m->rows[lock->row].closed = mode == GM_LOCK_CLOSED;
+    m->known = 0;
 }
 
 /* The energy of the dogs is lost when they are pulled apart. */

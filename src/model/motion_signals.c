@@ -117,8 +117,7 @@ void gm_motion_observe(gm_motion *motion, const gm_motion_input *input, const do
 {
     const gm_gearset *g = motion->gearset;
     (void)input;
-    gm_motion_forces(motion, x);
-    gm_motion_friction_at(motion, x);
+    gm_motion_evaluate(motion, x);
     for (int i = 0; i < motion->n_nodes; i++)
         *value++ = x[i];
     for (int i = 0; i < g->n_meshes; i++) {
