@@ -4,6 +4,8 @@
  */
 #include "commands.h"
 
+#include "cycle_stage.h"
+#include "files.h"
 #include "stages.h"
 
 #include <math.h>
@@ -17,6 +19,7 @@ typedef struct arguments {
     const char *description, *fmu;
     int steady, points, seed, json;
     double oil_temperature;
+    gm_cycle_settings drive;
 } arguments;
 
 // clang-format off
@@ -25,11 +28,24 @@ static const gm_option options[] = {
     {.kind = GM_OPTION_OPERAND, .name = "FMU", .required = 1,
      .offset = offsetof(arguments, fmu),
      .help = "the component made from it"},
-    {.kind = GM_OPTION_FLAG, .name = "steady", .required = 1,
-     .offset = offsetof(arguments, steady),
+    {.kind = GM_OPTION_FLAG, .name = "steady", .offset = offsetof(arguments, steady),
      .help = "compare steady losses at random points off the grid"},
     GM_POINTS_OPTION(arguments),
     GM_SEED_OPTION(arguments),
+    {.kind = GM_OPTION_TEXT, .name = "cycle", .value = "CYCLE",
+     .offset = offsetof(arguments, drive.cycle),
+     .help = "drive one vehicle over a cycle with both: ece15, urban (4 x ece15), eudc, "
+             "nedc or wltc3b"},
+    {.kind = GM_OPTION_TEXT, .name = "fidelity", .value = "NAME", .fallback = "both",
+     .offset = offsetof(arguments, drive.fidelity),
+     .help = "with --cycle: rigid, lash or both"},
+    {.kind = GM_OPTION_QUANTITY, .name = "tolerance", .value = "NUMBER", .unit = "",
+     .low = 1e-10, .high = 1e-2, .fallback = "1e-6",
+     .offset = offsetof(arguments, drive.tolerance),
+     .help = "with --cycle: relative error of a step of the solver"},
+    {.kind = GM_OPTION_TEXT, .name = "trace", .value = "FILE.csv",
+     .offset = offsetof(arguments, drive.trace),
+     .help = "with --cycle: write the drives over time"},
     GM_OIL_OPTION(offsetof(arguments, oil_temperature),
                   "oil temperature that the component must have been made for; default: "
                   "its own"),
@@ -38,21 +54,31 @@ static const gm_option options[] = {
 // clang-format on
 
 typedef struct verified {
+    const arguments *asked;
     gm_verify_stage stage;
+    gm_cycle_stage cycle;
     bool same_description;
 } verified;
 
 static void print_text(const void *result, FILE *out)
 {
     const verified *v = result;
-    gm_verify_stage_print(&v->stage, out);
+    if (v->asked->steady)
+        gm_verify_stage_print(&v->stage, out);
+    if (v->asked->steady && v->asked->drive.cycle)
+        fputc('\n', out);
+    if (v->asked->drive.cycle)
+        gm_cycle_stage_print(&v->cycle, out);
 }
 
 static void print_json(const void *result, gm_json *json)
 {
     const verified *v = result;
     gm_json_bool(json, "same_description", v->same_description);
-    gm_verify_stage_json(&v->stage, json);
+    if (v->asked->steady)
+        gm_verify_stage_json(&v->stage, json);
+    if (v->asked->drive.cycle)
+        gm_cycle_stage_json(&v->cycle, json);
 }
 
 static const gm_result_form form = {print_text, print_json};
@@ -90,18 +116,24 @@ static gm_status verify_fmu(const arguments *a, gm_fmu *fmu, gm_error *error)
 {
     const gm_fmu_origin origin = gm_fmu_read_origin(fmu);
     gm_gearset_file file;
-    verified result;
+    verified result = {.asked = a};
     double temperature = (double)NAN;
     gm_status status = choose_temperature(a, origin.oil_temperature, &temperature, error);
     if (status == GM_OK)
         status = gm_gearset_file_open(a->description, temperature, &file, error);
     if (status != GM_OK)
         return status;
-    status = gm_stage_verify(file.plant, fmu, a->points, a->seed, &result.stage, error);
-    if (status == GM_OK) {
-        result.same_description = compare_descriptions(a, &origin, &file);
+    result.same_description = compare_descriptions(a, &origin, &file);
+    if (a->steady)
+        status =
+            gm_stage_verify(file.plant, fmu, a->points, a->seed, &result.stage, error);
+    if (status == GM_OK && a->drive.cycle)
+        status = gm_stage_cycle(&file, a->fmu, &a->drive, &result.cycle, error);
+    if (status == GM_OK && a->drive.trace)
+        status = gm_cycle_stage_trace(&result.cycle, a->drive.trace, error);
+    if (status == GM_OK)
         status = gm_command_print(&form, a->json, &result, error);
-    }
+    gm_stage_cycle_clear(&result.cycle);
     gm_stage_verify_clear(&result.stage);
     gm_gearset_file_close(&file);
     return status;
@@ -110,16 +142,38 @@ static gm_status verify_fmu(const arguments *a, gm_fmu *fmu, gm_error *error)
 static gm_status verify(const arguments *a, gm_error *error)
 {
     gm_fmu *fmu = NULL;
-    gm_status status = gm_fmu_open(a->fmu, &fmu, error);
+    gm_status status = GM_OK;
+    if (a->drive.trace)
+        status = gm_file_check_output(a->drive.trace, a->description, error);
+    if (status == GM_OK)
+        status = gm_fmu_open(a->fmu, &fmu, error);
     if (status == GM_OK)
         status = verify_fmu(a, fmu, error);
     gm_fmu_close(fmu);
     return status;
 }
 
+static const char *usage_problem(const arguments *a)
+{
+    const char *fidelity = a->drive.fidelity;
+    if (!a->steady && !a->drive.cycle)
+        return "verify needs --steady, --cycle CYCLE or both";
+    if (a->drive.trace && !a->drive.cycle)
+        return "--trace needs --cycle";
+    if (strcmp(fidelity, "rigid") != 0 && strcmp(fidelity, "lash") != 0 &&
+        strcmp(fidelity, "both") != 0)
+        return "--fidelity is rigid, lash or both";
+    return NULL;
+}
+
 static int run(const void *given)
 {
     gm_error error = {0};
+    const char *problem = usage_problem(given);
+    if (problem) {
+        fprintf(stderr, "gearmap: %s\n", problem);
+        return GM_EXIT_USAGE;
+    }
     return gm_command_end(verify(given, &error), &error);
 }
 

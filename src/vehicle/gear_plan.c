@@ -106,7 +106,7 @@ static int allocate(gm_gear_plan *plan, int n_wishes)
 
 static void command(gm_gear_plan *plan, double time, int path, int gear)
 {
-    plan->commands[plan->n_commands++] = (gm_command){time, path, gear};
+    plan->commands[plan->n_commands++] = (gm_gear_command){time, path, gear};
 }
 
 static void share(gm_gear_plan *plan, int path, double start, double length, double to)

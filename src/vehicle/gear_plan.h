@@ -34,10 +34,10 @@ typedef struct gm_ramp {
     double from, to;
 } gm_ramp;
 
-typedef struct gm_command {
+typedef struct gm_gear_command {
     double time; /* s */
     int path, gear;
-} gm_command;
+} gm_gear_command;
 
 /** One change of the gear that drives. */
 typedef struct gm_plan_shift {
@@ -51,7 +51,7 @@ typedef struct gm_gear_plan {
     int n_shifts;
     gm_plan_shift *shifts; /* by time */
     int n_commands;
-    gm_command *commands;               /* by time; the first n_paths at 0 */
+    gm_gear_command *commands;          /* by time; the first n_paths at 0 */
     int n_ramps[GM_MAX_INPUT_PATHS];    /* share of the clutch capacity of each path */
     gm_ramp *ramps[GM_MAX_INPUT_PATHS]; /* by time, not overlapping */
     double first_share[GM_MAX_INPUT_PATHS];

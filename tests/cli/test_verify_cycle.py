@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: BSD-2-Clause
+"""gearmap verify --cycle: one vehicle, one cycle, both gearsets."""
+
+import csv
+import math
+
+import pytest
+from conftest import EXAMPLE, fails, gearmap, result_of
+
+FIGURES = {"engine_speed_rms_rad_s", "vehicle_speed_rms_km_h",
+           "output_torque_5Hz_rms_relative", "input_torque_5Hz_rms_relative",
+           "loss_energy_relative"}
+
+
+@pytest.fixture(scope="module")
+def trace(tmp_path_factory):
+    return tmp_path_factory.mktemp("cycle") / "trace.csv"
+
+
+@pytest.fixture(scope="module")
+def driven(example_fmu, trace):
+    """A loose tolerance: the figures are looked at elsewhere, here it is the form."""
+    return result_of("verify", EXAMPLE, example_fmu, "--cycle", "ece15", "--tolerance",
+                     "1e-4", "--trace", trace)
+
+
+def test_schema_of_the_result(driven):
+    assert driven["cycle"] == "ece15" and driven["duration_s"] == 195
+    assert driven["same_description"] is True
+    for run in [driven["detailed"], *driven["reduced"]]:
+        assert run["cpu_s"] > 0 and run["steps"] > 1000
+        assert run["real_time_factor"] == pytest.approx(195 / run["cpu_s"])
+    assert [run["fidelity"] for run in driven["reduced"]] == ["rigid", "lash"]
+    for run in driven["reduced"]:
+        assert set(run["errors"]) == FIGURES
+        assert run["cpu_saved"] == pytest.approx(1 - run["cpu_s"] / driven["detailed"]["cpu_s"])
+        assert sum(row["time_s"] for row in run["loss_by_gear"]) == pytest.approx(195)
+        assert [(s["from"], s["to"]) for s in run["shifts"]] == [
+            (1, 2), (2, 1), (1, 2), (2, 3), (3, 2), (2, 1)]
+        assert len(run["worst"]) == 5
+
+
+def test_all_energy_is_accounted_for(driven):
+    """The account is open by the error of the solution, ten times its tolerance."""
+    for run in [driven["detailed"], *driven["reduced"]]:
+        assert run["energy_balance_relative"] < 1e-3
+
+
+def test_reduced_drives_like_detailed(driven):
+    """Twice the figures of a map with the default axes: this one is coarse."""
+    rigid = driven["reduced"][0]["errors"]
+    assert rigid["engine_speed_rms_rad_s"] < 0.8
+    assert rigid["vehicle_speed_rms_km_h"] < 0.02
+    assert rigid["output_torque_5Hz_rms_relative"] < 0.1
+    assert driven["reduced"][0]["cpu_saved"] > 0.5
+
+
+def test_trace_has_all_drives(driven, trace):
+    with trace.open() as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == 39001
+    last = rows[-1]
+    assert float(last["time_s"]) == 195
+    for run in ("detailed", "rigid", "lash"):
+        assert float(last[f"{run}.loss_energy_J"]) > 1e4
+        assert float(last[f"{run}.cpu_s"]) > 0
+        assert abs(float(last[f"{run}.vehicle_speed_km_h"])) < 0.1
+    assert max(float(row["rigid.vehicle_speed_km_h"]) for row in rows[::100]) > 49
+    assert all(math.isfinite(float(v)) for row in rows[::500] for v in row.values())
+
+
+def test_wrong_wishes_are_refused(example_fmu, tmp_path):
+    assert "wltc3b" in fails("verify", EXAMPLE, example_fmu, "--cycle", "ftp75")
+    assert gearmap("verify", EXAMPLE, example_fmu).returncode == 2
+    assert gearmap("verify", EXAMPLE, example_fmu, "--steady", "--trace", "x").returncode == 2
+    assert gearmap("verify", EXAMPLE, example_fmu, "--cycle", "ece15", "--fidelity",
+                   "soft").returncode == 2
+    missing = tmp_path / "no" / "trace.csv"
+    fails("verify", EXAMPLE, example_fmu, "--cycle", "ece15", "--trace", missing)

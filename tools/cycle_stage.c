@@ -1,0 +1,171 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+#include "cycle_stage.h"
+
+#include "progress.h"
+
+#include <math.h>
+#include <string.h>
+
+#define SAMPLE_STEP 5e-3  /* s: 40 samples in a period of the 5 Hz that torques keep */
+#define SHOWN_EVERY 0.005 /* of the cycle, of the progress bar */
+
+const char *gm_fidelity_name(gm_fmu_fidelity fidelity)
+{
+    return fidelity == GM_FMU_RIGID ? "rigid" : "lash";
+}
+
+void gm_stage_cycle_clear(gm_cycle_stage *stage)
+{
+    for (int i = 0; i < stage->n_runs; i++) {
+        gm_record_destroy(stage->run[i].record);
+        gm_comparison_clear(&stage->run[i].comparison);
+    }
+    gm_record_destroy(stage->detailed);
+    gm_gear_plan_destroy(stage->plan);
+    gm_cycle_destroy(stage->cycle);
+    memset(stage, 0, sizeof *stage);
+}
+
+/* ---- what the control must know of the gearset ---- */
+
+static gm_status add_gear(const gm_plant *plant, int p, int number, gm_transmission *t,
+                          double *forward, gm_error *error)
+{
+    int gear[GM_MAX_INPUT_PATHS] = {0};
+    gm_kinematics kinematics;
+    gear[p] = number;
+    gm_status status = plant->is->kinematics(plant->self, gear, &kinematics, error);
+    if (status != GM_OK || t->n_gears == GM_PLAN_MAX_GEARS)
+        return status;
+    double ratio = kinematics.ratio[p];
+    int i = t->n_gears++;
+    for (; i > 0 && t->gear[i - 1].number > number; i--)
+        t->gear[i] = t->gear[i - 1];
+    t->gear[i] = (gm_plan_gear){number, p, fabs(ratio)};
+    if (i == 0)
+        *forward = ratio > 0.0 ? 1.0 : -1.0;
+    return GM_OK;
+}
+
+static gm_status list_gears(const gm_plant *plant, gm_transmission *t, double *forward,
+                            gm_error *error)
+{
+    gm_status status = GM_OK;
+    *t = (gm_transmission){.n_paths = plant->info.n_paths};
+    for (int p = 0; p < plant->info.n_paths; p++)
+        for (int i = 0; i < plant->info.path[p].n_gears && status == GM_OK; i++)
+            if (plant->info.path[p].gears[i].number > 0)
+                status = add_gear(plant, p, plant->info.path[p].gears[i].number, t,
+                                  forward, error);
+    return status;
+}
+
+/* ---- driving ---- */
+
+typedef struct watch {
+    gm_progress bar;
+    const char *what;
+    double shown;
+} watch;
+
+static int show(void *context, double done)
+{
+    watch *w = context;
+    if (done - w->shown >= SHOWN_EVERY) {
+        gm_progress_show(&w->bar, done, w->what);
+        w->shown = done;
+    }
+    return gm_progress_interrupted();
+}
+
+static gm_status drive(const gm_trip_parts *parts, double tolerance, const char *what,
+                       gm_record **record, gm_error *error)
+{
+    watch w = {.what = what, .shown = -1.0};
+    const gm_record_progress progress = {show, &w};
+    const gm_transient_options options = {.tolerance = tolerance};
+    gm_progress_begin(&w.bar);
+    gm_status status =
+        gm_record_create(parts, &options, SAMPLE_STEP, &progress, record, error);
+    gm_progress_end(&w.bar);
+    return status;
+}
+
+static gm_status drive_component(const gm_trip_parts *common, const char *fmu,
+                                 gm_fmu_fidelity fidelity, gm_cycle_stage *stage,
+                                 gm_error *error)
+{
+    gm_fmu_plant *plant = NULL;
+    gm_cycle_run *run = &stage->run[stage->n_runs];
+    gm_status status = gm_fmu_plant_create(fmu, fidelity, &plant, error);
+    if (status != GM_OK)
+        return status;
+    gm_dynamics dynamics = gm_fmu_plant_dynamics(plant);
+    gm_trip_parts parts = *common;
+    parts.gearset = &dynamics;
+    run->fidelity = fidelity;
+    if (dynamics.n_paths != stage->n_paths)
+        status = gm_fail(error, GM_ERR_MODEL, "%s: has %d input flanges, not %d", fmu,
+                         dynamics.n_paths, stage->n_paths);
+    if (status == GM_OK)
+        status = drive(&parts, stage->tolerance, gm_fidelity_name(fidelity), &run->record,
+                       error);
+    if (status == GM_OK) {
+        stage->n_runs++;
+        status = gm_compare(stage->detailed, run->record, stage->plan, &run->comparison,
+                            error);
+    }
+    gm_fmu_plant_destroy(plant);
+    return status;
+}
+
+static int wants(const gm_cycle_settings *settings, gm_fmu_fidelity fidelity)
+{
+    return strcmp(settings->fidelity, "both") == 0 ||
+           strcmp(settings->fidelity, gm_fidelity_name(fidelity)) == 0;
+}
+
+static gm_status drive_all(const gm_gearset_file *file, const char *fmu,
+                           const gm_vehicle *vehicle, double forward,
+                           const gm_cycle_settings *settings, gm_cycle_stage *stage,
+                           gm_error *error)
+{
+    gm_dynamics detailed = gm_builtin_dynamics(file->gearset);
+    const gm_trip_parts parts = {.vehicle = vehicle,
+                                 .cycle = stage->cycle,
+                                 .plan = stage->plan,
+                                 .gearset = &detailed,
+                                 .forward = forward};
+    gm_status status =
+        drive(&parts, stage->tolerance, "detailed", &stage->detailed, error);
+    if (status == GM_OK && wants(settings, GM_FMU_RIGID))
+        status = drive_component(&parts, fmu, GM_FMU_RIGID, stage, error);
+    if (status == GM_OK && wants(settings, GM_FMU_LASH))
+        status = drive_component(&parts, fmu, GM_FMU_LASH, stage, error);
+    return status;
+}
+
+gm_status gm_stage_cycle(const gm_gearset_file *file, const char *fmu,
+                         const gm_cycle_settings *settings, gm_cycle_stage *stage,
+                         gm_error *error)
+{
+    const gm_vehicle vehicle = gm_vehicle_reference();
+    gm_transmission transmission;
+    double forward = 1.0;
+    memset(stage, 0, sizeof *stage);
+    stage->tolerance = settings->tolerance;
+    stage->n_paths = file->plant->info.n_paths;
+    for (int p = 0; p < stage->n_paths; p++)
+        stage->path_name[p] = file->plant->info.path[p].name;
+    gm_status status = gm_cycle_named(settings->cycle, &stage->cycle, error);
+    if (status == GM_OK)
+        status = list_gears(file->plant, &transmission, &forward, error);
+    if (status == GM_OK)
+        status = gm_gear_plan_create(stage->cycle, &vehicle, &transmission, &stage->plan,
+                                     error);
+    if (status == GM_OK)
+        status = drive_all(file, fmu, &vehicle, forward, settings, stage, error);
+    if (status != GM_OK)
+        gm_stage_cycle_clear(stage);
+    return status;
+}

@@ -1,0 +1,62 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * The stage that drives one vehicle over one cycle, with the detailed gearset and with the
+ * component in each of its fidelities, and compares.
+ */
+#ifndef CYCLE_STAGE_H
+#define CYCLE_STAGE_H
+
+#include "gearset_file.h"
+#include "json.h"
+#include "plant/gm_fmu_motion.h"
+#include "vehicle/gm_compare.h"
+
+enum { GM_CYCLE_FIDELITIES = 2 };
+
+typedef struct gm_cycle_settings {
+    const char *cycle;    /* name of a built-in one */
+    const char *fidelity; /* "rigid", "lash" or "both" */
+    double tolerance;     /* relative error of a step */
+    const char *trace;    /* file of the drives over time; NULL: none */
+} gm_cycle_settings;
+
+/** One drive with the component. */
+typedef struct gm_cycle_run {
+    gm_fmu_fidelity fidelity;
+    gm_record *record;
+    gm_comparison comparison;
+} gm_cycle_run;
+
+typedef struct gm_cycle_stage {
+    gm_cycle *cycle;
+    gm_gear_plan *plan;
+    int n_paths;
+    const char *path_name[GM_MAX_INPUT_PATHS];
+    double tolerance;
+    gm_record *detailed;
+    int n_runs;
+    gm_cycle_run run[GM_CYCLE_FIDELITIES];
+} gm_cycle_stage;
+
+/** Drive and compare, with a progress bar. On failure nothing is held. */
+GM_NODISCARD gm_status gm_stage_cycle(const gm_gearset_file *file, const char *fmu,
+                                      const gm_cycle_settings *settings,
+                                      gm_cycle_stage *stage, gm_error *error);
+void gm_stage_cycle_clear(gm_cycle_stage *stage);
+
+/** Members of the stage's JSON object. */
+void gm_cycle_stage_json(const gm_cycle_stage *stage, gm_json *json);
+
+/** Lines for people: a small table, or everything. */
+void gm_cycle_stage_print_table(const gm_cycle_stage *stage, FILE *out);
+void gm_cycle_stage_print(const gm_cycle_stage *stage, FILE *out);
+
+/** Write all drives over time as comma-separated values; the file is there complete or
+ *  not at all. GM_ERR_IO. */
+GM_NODISCARD gm_status gm_cycle_stage_trace(const gm_cycle_stage *stage, const char *path,
+                                            gm_error *error);
+
+/** "rigid" or "lash". */
+const char *gm_fidelity_name(gm_fmu_fidelity fidelity);
+
+#endif
