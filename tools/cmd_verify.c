@@ -123,7 +123,6 @@ static gm_status verify_fmu(const arguments *a, gm_fmu *fmu, gm_error *error)
         status = gm_gearset_file_open(a->description, temperature, &file, error);
     if (status != GM_OK)
         return status;
-    result.same_description = compare_descriptions(a, &origin, &file);
     if (a->steady)
         status =
             gm_stage_verify(file.plant, fmu, a->points, a->seed, &result.stage, error);
@@ -131,8 +130,10 @@ static gm_status verify_fmu(const arguments *a, gm_fmu *fmu, gm_error *error)
         status = gm_stage_cycle(&file, a->fmu, &a->drive, &result.cycle, error);
     if (status == GM_OK && a->drive.trace)
         status = gm_cycle_stage_trace(&result.cycle, a->drive.trace, error);
-    if (status == GM_OK)
+    if (status == GM_OK) {
+        result.same_description = compare_descriptions(a, &origin, &file);
         status = gm_command_print(&form, a->json, &result, error);
+    }
     gm_stage_cycle_clear(&result.cycle);
     gm_stage_verify_clear(&result.stage);
     gm_gearset_file_close(&file);

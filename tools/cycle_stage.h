@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * The stage that drives one vehicle over one cycle, with the detailed gearset and with the
- * component in each of its fidelities, and compares.
+ * The stage that drives one vehicle over one cycle, with the detailed gearset and with
+ * the component in each of its fidelities, and compares.
  */
 #ifndef CYCLE_STAGE_H
 #define CYCLE_STAGE_H

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * The drives of a comparison over time, one row a sample: the cycle, then the same columns
- * for the detailed gearset and for each fidelity of the component.
+ * The drives of a comparison over time, one row a sample: the cycle, then the same
+ * columns for the detailed gearset and for each fidelity of the component.
  */
 #include "cycle_stage.h"
 

@@ -103,7 +103,7 @@ def test_quantities_name_their_unit():
     (["help", "check", "extra"], "help has no use for the argument 'extra'"),
     (["bake", "m", "-o", "f", "--format", "elf"], "bake knows no format 'elf' (only fmu2)"),
     (["verify", "a.yaml", "f.fmu"],
-     "verify needs --steady: compare steady losses at random points off the grid"),
+     "verify needs --steady, --cycle CYCLE or both"),
     (["check", "a.yaml", "--gear", "0", "--speed", "1000", "--torque", "1"],
      "an operating point needs a gear; 0 is neutral"),
     (["check", "a.yaml", "--gear", "1", "--speed", "0", "--torque", "1"],
