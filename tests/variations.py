@@ -302,6 +302,22 @@ class Variation:
             b.update(self.rng.choice([{}, {}, {"friction": "palmgren"},
                                       *self.FRICTIONS]))
 
+    def thrust(self):
+        """Now and then an output shaft on a pair of tapered roller bearings."""
+        ends = [self.data["bearings"]["output_1_" + end] for end in ("front", "rear")]
+        if self.rng.random() < 0.7:
+            return
+        for b, way in zip(ends, ("minus_x", "plus_x")):
+            for key in ("static_load_N", "friction", "supply", "torque_Nm", "mu",
+                        "static_torque_Nm", "static_mu", "stribeck_rpm",
+                        "viscous_Nms_rad"):
+                b.pop(key, None)
+            b.update(type="tapered_roller", series="322", axial_factor=1.6,
+                     locating=True, thrust=way)
+        if self.rng.random() < 0.5:
+            ends[1].update(preload_N=self.rng.uniform(100.0, 3000.0),
+                           preload_change_N_K=self.rng.uniform(-20.0, 5.0))
+
     def cover(self):
         """Shafts reach as far as what sits on them."""
         for name, shaft in self.shafts.items():
@@ -375,6 +391,7 @@ class Variation:
         self.positions(a_1, a_2)
         self.needles()
         self.bearings()
+        self.thrust()
         self.small_parts()
         self.cover()
         self.ratios()

@@ -164,6 +164,8 @@ gm_status gm_check_shafts(const gm_description *d, gm_error *error)
                                         &d->wheels[i].bearing, error);
     for (int i = 0; i < d->n_shafts && status == GM_OK; i++)
         status = check_support(d, i, error);
+    if (status == GM_OK)
+        status = gm_check_thrust(d, error);
     for (int i = 0; i < d->n_seals && status == GM_OK; i++)
         status = gm_check_on(d, "seal", &d->seals[i].id, d->seals[i].shaft,
                              d->seals[i].on, error);

@@ -17,6 +17,9 @@ GM_NODISCARD gm_status gm_check_shafts(const gm_description *d, gm_error *error)
 GM_NODISCARD gm_status gm_check_gears(const gm_description *d, gm_error *error);
 GM_NODISCARD gm_status gm_check_paths(const gm_description *d, gm_error *error);
 
+/* Part of the first one. */
+GM_NODISCARD gm_status gm_check_thrust(const gm_description *d, gm_error *error);
+
 /* Parts of the last one. */
 GM_NODISCARD gm_status gm_check_locks(const gm_description *d, gm_error *error);
 GM_NODISCARD gm_status gm_check_chains(const gm_description *d, gm_error *error);

@@ -188,6 +188,41 @@ done:
     return status;
 }
 
+/* Axial force by radial load, see thrust.c. */
+static double induced_factor(const gm_bearing *bearing)
+{
+    if (!isnan(bearing->induced))
+        return bearing->induced;
+    if (bearing->data.type == GM_BEARING_TAPERED_ROLLER)
+        return 0.5 / bearing->data.Y;
+    return bearing->data.type == GM_BEARING_ANGULAR_CONTACT_BALL ? 1.14 : 0.0;
+}
+
+static double preload_at(const gm_bearing *bearing, double temperature)
+{
+    const double room = 293.15; /* K */
+    return fmax(bearing->preload + bearing->preload_change * (temperature - room), 0.0);
+}
+
+/* Bearings that hold one direction each, with equal holders (check_thrust.c). */
+static void pair_bearings(gm_gearset *gearset)
+{
+    const gm_description *d = gearset->description;
+    for (int i = 0; i < d->n_bearings; i++)
+        for (int k = 0; k < d->n_bearings; k++) {
+            const gm_bearing *plus = &d->bearings[i], *minus = &d->bearings[k];
+            gm_load_row *one = &gearset->bearings[i].load,
+                        *other = &gearset->bearings[k].load;
+            if (plus->thrust <= 0 || minus->thrust >= 0 || plus->shaft != minus->shaft)
+                continue;
+            one->way = 1.0, other->way = -1.0;
+            one->induced = induced_factor(plus), other->induced = induced_factor(minus);
+            one->preload = preload_at(plus, gearset->oil.temperature);
+            other->preload = one->preload;
+            gm_thrust_pair(one, other);
+        }
+}
+
 static gm_status make_bearings(gm_gearset *gearset, gm_error *error)
 {
     const gm_description *d = gearset->description;
@@ -198,6 +233,8 @@ static gm_status make_bearings(gm_gearset *gearset, gm_error *error)
     gm_status status = shaft_bearings(gearset, error);
     if (status == GM_OK)
         status = shaft_loads(gearset, error);
+    if (status == GM_OK)
+        pair_bearings(gearset);
     if (status == GM_OK)
         status = idler_bearings(gearset, error);
     return status;

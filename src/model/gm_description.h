@@ -179,7 +179,11 @@ typedef struct gm_bearing {
     int shaft;
     int on; /* GM_HOUSING or the shaft that carries the outer ring */
     double position;
-    int locating; /* takes axial load */
+    int locating;          /* takes axial load */
+    int thrust;            /* 0: from both sides; +1: of a shaft pushed towards +x; -1 */
+    double preload;        /* of the pair at 20 degC, at its +1 bearing, N */
+    double preload_change; /* by temperature, N/K */
+    double induced;        /* axial force by radial load; NAN: default of the type */
     gm_bearing_data data;
     double radial_stiffness,
         axial_stiffness; /* N/m; matter only where statics cannot tell */

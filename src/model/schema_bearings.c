@@ -105,6 +105,9 @@ const gm_section gm_schema_bearing_data = {
     .fields = bearing_data_fields};
 #undef OWNER
 
+static const gm_choice thrusts[] = {
+    {"both", 0}, {"plus_x", 1}, {"minus_x", -1}, {NULL, 0}};
+
 #define OWNER gm_bearing
 static const gm_field bearing_fields[] = {
     {.key = "shaft", .type = GM_FIELD_REFERENCE, .section = &gm_schema_shaft, AT(shaft),
@@ -114,6 +117,22 @@ static const gm_field bearing_fields[] = {
     {NUMBER("position_mm", -5000, 5000), AT(position), .help = "x of its middle"},
     {.key = "locating", .type = GM_FIELD_BOOLEAN, AT(locating), DEFAULT("false"),
      .help = "true: takes axial load"},
+    {.key = "thrust", .type = GM_FIELD_CHOICE, .choices = thrusts, AT(thrust),
+     DEFAULT("both"), ONLY("locating", "true"),
+     .help = "direction in which it holds its shaft; tapered roller and angular contact "
+             "bearings come in pairs, one of them plus_x, the other minus_x"},
+    {NUMBER("preload_N", 0, 1e7), AT(preload), DEFAULT("0"), ONLY("thrust", "plus_x"),
+     .help = "axial preload of the pair at 20 degC"},
+    {NUMBER("preload_change_N_K", -1e5, 1e5), AT(preload_change), DEFAULT("0"),
+     ONLY("thrust", "plus_x"),
+     .help = "its change by the oil's temperature; negative where the housing expands "
+             "more and loosens the pair, -11.5e-6/K times distance times axial stiffness "
+             "of the pair in aluminium"},
+    {NUMBER("induced_axial_factor", 0, 10), AT(induced), OPTIONAL,
+     ONLY("thrust", "plus_x or minus_x"),
+     .help = "axial force that a radial load induces, per radial load; default: tapered "
+             "roller 0.5/axial_factor, angular contact ball 1.14 (contact angle 40 deg), "
+             "others 0"},
     {.key = "data", .type = GM_FIELD_INLINE, .section = &gm_schema_bearing_data,
      AT(data), .help = ""},
     {NUMBER("radial_stiffness_N_um", 0, 1e5), ABOVE, AT(radial_stiffness), DEFAULT("300"),

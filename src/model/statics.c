@@ -270,7 +270,7 @@ void gm_load_row_at(const gm_load_row *row, const double *F, double *radial,
     double v[3];
     gm_load_row_vector(row, F, v);
     *radial = sqrt(v[1] * v[1] + v[2] * v[2]);
-    *axial = fabs(v[0]);
+    *axial = row->mate ? gm_thrust_at(row, F, d_axial) : fabs(v[0]);
     if (!d_radial || !d_axial)
         return;
     double c = *radial > 0.0 ? v[1] / *radial : 1.0;
@@ -279,6 +279,7 @@ void gm_load_row_at(const gm_load_row *row, const double *F, double *radial,
         double sign = sign_of(F[row->mesh[k]]);
         d_radial[k] = c * (row->a[k][1] + sign * row->b[k][1]) +
                       s * (row->a[k][2] + sign * row->b[k][2]);
-        d_axial[k] = sign_of(v[0]) * (row->a[k][0] + sign * row->b[k][0]);
+        if (!row->mate)
+            d_axial[k] = sign_of(v[0]) * (row->a[k][0] + sign * row->b[k][0]);
     }
 }

@@ -27,7 +27,20 @@ typedef struct gm_load_row {
     double (*a)[3];   /* [n], x y z */
     double (*b)[3];   /* [n] */
     double weight[3]; /* N */
+    /* Of a pair that holds its shaft one direction each (thrust.c); mate NULL: both. */
+    const struct gm_load_row *mate; /* with the same meshes in the same order */
+    double way;                     /* +1: holds the shaft from moving towards +x; -1 */
+    double induced;                 /* axial force by radial load */
+    double preload;                 /* N, the same in both */
 } gm_load_row;
+
+/** Make a pair of two rows, whose way, induced and preload are set and which stay where
+ *  they are. */
+void gm_thrust_pair(gm_load_row *one, gm_load_row *other);
+
+/** Axial load of a bearing of a pair under mesh forces F, >= 0 [N]; d_axial[n] by the
+ *  forces of the row, or NULL. */
+double gm_thrust_at(const gm_load_row *row, const double *F, double *d_axial);
 
 void gm_load_row_clear(gm_load_row *row);
 
