@@ -41,7 +41,9 @@ static gm_static_mesh hand_mesh(void)
     return mesh; /* the mate does nothing: its contact is zero */
 }
 
-static void loads(gm_bearing *bearings, int n, double F, double (*load)[2])
+/* Radial and axial load, or the vector, of each bearing. */
+static void solve(gm_bearing *bearings, int n, double F, double (*load)[2],
+                  double (*vector)[3])
 {
     gm_shaft shaft = {.y = 0.0, .z = 0.0};
     gm_description d = {.file = (char *)"test",
@@ -53,9 +55,17 @@ static void loads(gm_bearing *bearings, int n, double F, double (*load)[2])
     gm_load_row rows[4];
     assert_int_equal(gm_statics_solve(&d, 1, &mesh, 0, NULL, rows, NULL), GM_OK);
     for (int i = 0; i < n; i++) {
-        gm_load_row_at(&rows[i], &F, &load[i][0], &load[i][1], NULL, NULL);
+        if (load)
+            gm_load_row_at(&rows[i], &F, &load[i][0], &load[i][1], NULL, NULL);
+        if (vector)
+            gm_load_row_vector(&rows[i], &F, vector[i]);
         gm_load_row_clear(&rows[i]);
     }
+}
+
+static void loads(gm_bearing *bearings, int n, double F, double (*load)[2])
+{
+    solve(bearings, n, F, load, NULL);
 }
 
 static void near(double value, double expected, double tolerance)
@@ -76,6 +86,12 @@ static void helical_pinion_on_two_bearings(void **state)
     near(load[1][0], 1399.479, 1e-6);
     near(load[0][1], F_A, 1e-9); /* the locating bearing takes all of it */
     assert_true(load[1][1] < 1e-6);
+    double v[2][3]; /* tangential along z, separating along -y */
+    solve(bearings, 2, 1.0, NULL, v);
+    near(v[0][2], 1933.092, 1e-6);
+    near(v[0][1], -342.948, 2e-6); /* a difference of two loads, six digits printed */
+    near(v[1][2], 1159.855, 1e-6);
+    near(v[1][1], -783.119, 1e-6);
 }
 
 /* Reversing the load turns F_t and F_a, not F_r: in the radial plane the moment F_a r now
