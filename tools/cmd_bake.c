@@ -53,14 +53,20 @@ static const gm_result_form form = {print_text, print_json};
 static gm_status bake(const arguments *a, gm_error *error)
 {
     gm_map *map = NULL;
+    gm_map_error *errors = NULL;
+    int n_errors = 0;
     baked result = {.output = a->output};
     gm_status status = gm_file_check_output(a->output, a->map, error);
     if (status == GM_OK)
         status = gm_map_read(a->map, &map, error);
     if (status == GM_OK)
-        status = gm_stage_bake(map, a->compiler, a->output, &result.stage, error);
+        status = gm_map_get_errors(a->map, &n_errors, &errors, error);
+    if (status == GM_OK)
+        status = gm_stage_bake(map, n_errors, errors, a->compiler, a->output,
+                               &result.stage, error);
     if (status == GM_OK)
         status = gm_command_print(&form, a->json, &result, error);
+    gm_map_errors_free(n_errors, errors);
     gm_map_destroy(map);
     return status;
 }

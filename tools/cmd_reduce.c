@@ -93,9 +93,9 @@ static gm_status verify(const arguments *a, reduction *r, const char *name,
         status =
             gm_stage_verify(r->file.plant, fmu, a->points, a->seed, &r->verify, error);
     gm_fmu_close(fmu);
-    if (status == GM_OK && a->map)
+    if (status == GM_OK)
         status =
-            gm_stage_keep_errors(&r->verify, r->file.plant->info.n_paths, a->map, error);
+            gm_stage_keep_errors(&r->verify, &r->bake, r->sweep.map, name, a->map, error);
     return status;
 }
 
@@ -103,7 +103,8 @@ static gm_status verify(const arguments *a, reduction *r, const char *name,
 static gm_status bake_and_verify(const arguments *a, reduction *r, const char *name,
                                  gm_error *error)
 {
-    gm_status status = gm_stage_bake(r->sweep.map, a->compiler, name, &r->bake, error);
+    gm_status status =
+        gm_stage_bake(r->sweep.map, 0, NULL, a->compiler, name, &r->bake, error);
     if (status != GM_OK)
         return status;
     status = verify(a, r, name, error);

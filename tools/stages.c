@@ -91,8 +91,9 @@ void gm_stage_sweep_clear(gm_sweep_stage *stage)
     memset(stage, 0, sizeof *stage);
 }
 
-gm_status gm_stage_bake(const gm_map *map, const char *compiler, const char *path,
-                        gm_bake_stage *stage, gm_error *error)
+gm_status gm_stage_bake(const gm_map *map, int n_errors, const gm_map_error *errors,
+                        const char *compiler, const char *path, gm_bake_stage *stage,
+                        gm_error *error)
 {
     char share[GM_PATH_SIZE];
     double start = gm_stage_clock();
@@ -100,7 +101,8 @@ gm_status gm_stage_bake(const gm_map *map, const char *compiler, const char *pat
     gm_status status = gm_file_find_share(share, error);
     if (status != GM_OK)
         return status;
-    const gm_bake_options options = {.share = share, .compiler = compiler};
+    const gm_bake_options options = {
+        .share = share, .compiler = compiler, .n_errors = n_errors, .errors = errors};
     gm_progress progress;
     gm_progress_begin(&progress);
     status = gm_bake_fmu2(map, &options, path, &stage->summary, error);
@@ -156,7 +158,8 @@ static void to_map_error(gm_verify_group group, const gm_verify_case *c, int n_p
                         .worst_torque = c->worst_torque};
 }
 
-gm_status gm_stage_keep_errors(const gm_verify_stage *stage, int n_paths, const char *map,
+gm_status gm_stage_keep_errors(const gm_verify_stage *stage, const gm_bake_stage *bake,
+                               const gm_map *map, const char *fmu, const char *map_path,
                                gm_error *error)
 {
     const gm_verify_result *r = &stage->result;
@@ -169,8 +172,10 @@ gm_status gm_stage_keep_errors(const gm_verify_stage *stage, int n_paths, const 
     n = 0;
     for (int g = 0; g < GM_VERIFY_GROUPS; g++)
         for (int i = 0; i < r->n_cases[g]; i++)
-            to_map_error((gm_verify_group)g, &r->cases[g][i], n_paths, &errors[n++]);
-    gm_status status = gm_map_put_errors(map, (long long)r->seed, n, errors, error);
+            to_map_error((gm_verify_group)g, &r->cases[g][i], map->n_paths, &errors[n++]);
+    gm_status status = gm_bake_document(fmu, map, &bake->summary, n, errors, error);
+    if (status == GM_OK && map_path)
+        status = gm_map_put_errors(map_path, (long long)r->seed, n, errors, error);
     gm_free(errors);
     return status;
 }

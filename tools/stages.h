@@ -44,8 +44,10 @@ GM_NODISCARD gm_status gm_stage_sweep(const gm_gearset_file *file,
                                       gm_sweep_stage *stage, gm_error *error);
 void gm_stage_sweep_clear(gm_sweep_stage *stage);
 
-/** Bake map into path; compiler NULL: the one that is found. */
-GM_NODISCARD gm_status gm_stage_bake(const gm_map *map, const char *compiler,
+/** Bake map into path; compiler NULL: the one that is found. errors: for the
+ *  documentation, n_errors may be 0. */
+GM_NODISCARD gm_status gm_stage_bake(const gm_map *map, int n_errors,
+                                     const gm_map_error *errors, const char *compiler,
                                      const char *path, gm_bake_stage *stage,
                                      gm_error *error);
 
@@ -54,9 +56,12 @@ GM_NODISCARD gm_status gm_stage_verify(const gm_plant *plant, gm_fmu *fmu, int p
                                        int seed, gm_verify_stage *stage, gm_error *error);
 void gm_stage_verify_clear(gm_verify_stage *stage);
 
-/** Write the errors of a verification into the file of the map that was verified. */
-GM_NODISCARD gm_status gm_stage_keep_errors(const gm_verify_stage *stage, int n_paths,
-                                            const char *map, gm_error *error);
+/** Write the errors of a verification into the documentation of the FMU that was baked
+ *  and, unless map_path is NULL, into the map's file. */
+GM_NODISCARD gm_status gm_stage_keep_errors(const gm_verify_stage *stage,
+                                            const gm_bake_stage *bake, const gm_map *map,
+                                            const char *fmu, const char *map_path,
+                                            gm_error *error);
 
 /** Members of the stage's JSON object. */
 void gm_sweep_stage_json(const gm_sweep_stage *stage, gm_json *json);

@@ -1,108 +1,263 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 #include "bake/documentation.h"
 
+#include "bake/page.h"
+#include "bake/picture.h"
 #include "bake/variables.h"
 
-/* Text that may hold what HTML reads as markup. */
-static void escaped(gm_buffer *page, const char *text)
+#include <math.h>
+#include <string.h>
+
+#define RPM 9.54929658551372 /* per rad/s */
+#define KELVIN 273.15
+
+static const char *title_of(const gm_map *map)
 {
-    for (; *text; text++) {
-        unsigned char c = (unsigned char)*text;
-        if (c == '<')
-            gm_buffer_text(page, "&lt;");
-        else if (c == '>')
-            gm_buffer_text(page, "&gt;");
-        else if (c == '&')
-            gm_buffer_text(page, "&amp;");
-        else if (c >= 0x20)
-            gm_buffer_bytes(page, text, 1);
-    }
+    return map->title[0] ? map->title : map->name;
 }
 
-static void number(gm_buffer *page, const char *before, double value, int digits,
-                   const char *after)
+/* ---- what it is ---- */
+
+static void introduction(gm_buffer *page, const gm_map *map)
 {
-    char text[GM_NUMBER_TEXT];
-    gm_buffer_text(page, "%s%s%s", before, gm_number_text(value, digits, text), after);
+    gm_buffer_text(page, "<h1>");
+    gm_page_escaped(page, title_of(map));
+    gm_buffer_text(
+        page,
+        "</h1>\n<p class=\"lead\">A reduced gearset: ratios, inertias and losses from "
+        "tables that were computed with a detailed model.</p>\n<div "
+        "class=\"figure\"><img "
+        "src=\"../model.png\" alt=\"Efficiency of every gear\"><div class=\"caption\">"
+        "Efficiency of every gear, driving forward, over speed (to the right, ");
+    gm_page_number(page, "to ", map->speed_max * RPM, 4, " rpm) and torque (up, ");
+    gm_page_number(page, "to ", map->torque_max, 4, " N·m, half of it at 71 % of the ");
+    gm_page_number(page, "height) of its input, from ", 100 * GM_PICTURE_LOW, 3,
+                   " % (dark) to ");
+    gm_page_number(page, "", 100 * GM_PICTURE_HIGH, 3, " % (bright).</div></div>\n");
 }
 
-static void row(gm_buffer *page, const gm_map *map, scalar s)
+static const char *const use[] = {
+    "Torques are inputs and speeds are outputs at every flange, so clutches, shafts and "
+    "machines connect without algebraic loops. Torques count positive into the gearset: "
+    "a "
+    "load at the output is negative, and braking with the engine is a negative torque at "
+    "an input.",
+    "A gear is commanded by its number: -1 reverse, 0 neutral, 1 and up forward. A path "
+    "that leaves neutral synchronises with limited torque until the speeds agree, then "
+    "it "
+    "turns with the output. An unknown number keeps the gear that was and sets "
+    "<code>gear_refused</code>.",
+    "Gears that are commanded during initialisation are engaged from the start; "
+    "<code>output.w_start</code> then sets the speed of everything that turns with the "
+    "output.",
+    "At standstill friction holds exactly: no creep on a hill, and two different limits "
+    "of "
+    "torque for breaking away in the two directions.",
+    "Co-Simulation takes any communication step; work done by the flanges equals the "
+    "change "
+    "of kinetic and elastic energy plus <code>loss_energy</code> on each of them. A "
+    "flange "
+    "against a stiff clutch with damping c [N·m·s/rad] wants steps below 2 J / c, with J "
+    "the inertia of that flange.",
+};
+
+static void usage(gm_buffer *page)
 {
-    static const char *const kind[] = {"input", "output", "parameter"};
-    const variable *v = &gm_bake_variables[s.id];
-    gm_buffer_text(page, "<tr><td><code>%s%s%s</code></td><td>%s</td><td>%s</td><td>",
-                   s.path < 0 ? "" : map->paths[s.path].name, s.path < 0 ? "" : ".",
-                   v->name, kind[v->causality], v->unit);
-    escaped(page, v->description);
-    gm_buffer_text(page, "</td></tr>\n");
+    gm_page_heading(page, "Use");
+    for (size_t i = 0; i < sizeof use / sizeof *use; i++)
+        gm_buffer_text(page, "<p>%s</p>\n", use[i]);
 }
 
-static void interface_table(gm_buffer *page, const gm_map *map)
-{
-    scalar all[2 * N_VARIABLES];
-    int n = gm_bake_scalars(map->n_paths, all);
-    gm_buffer_text(page, "<h2>Variables</h2>\n<table>\n<tr><th>name</th><th>kind</th>"
-                         "<th>unit</th><th>meaning</th></tr>\n");
-    for (int i = 0; i < n; i++)
-        row(page, map, all[i]);
-    gm_buffer_text(page, "</table>\n");
-}
+/* ---- gears, inertias, range ---- */
 
 static void gear_table(gm_buffer *page, const gm_map *map)
 {
-    gm_buffer_text(page, "<h2>Gears</h2>\n<table>\n<tr><th>path</th><th>gear</th>"
-                         "<th>ratio (input speed / output speed)</th></tr>\n");
+    gm_page_heading(page, "Gears and inertias");
+    gm_page_table(page, "path|>gear|>ratio, input speed / output speed");
     for (int p = 0; p < map->n_paths; p++)
         for (int g = 0; g < map->paths[p].n_gears; g++) {
-            gm_buffer_text(page, "<tr><td>%s</td><td>%d</td><td>", map->paths[p].name,
-                           map->paths[p].gears[g].number);
-            number(page, "", map->paths[p].gears[g].ratio, 7, "</td></tr>\n");
+            gm_buffer_text(page, "<tr><td>%s</td><td class=\"n\">%d</td>",
+                           map->paths[p].name, map->paths[p].gears[g].number);
+            gm_page_number(page, "<td class=\"n\">", map->paths[p].gears[g].ratio, 7,
+                           "</td></tr>\n");
         }
-    gm_buffer_text(page, "</table>\n");
+    gm_page_table_end(page);
+    gm_page_number(page, "<p>Inertia at the output ", map->inertia_output, 6, " kg·m²");
+    for (int p = 0; p < map->n_paths; p++) {
+        gm_buffer_text(page, ", at <code>%s</code>", map->paths[p].name);
+        gm_page_number(page, " ", map->paths[p].inertia, 6, " kg·m²");
+    }
+    gm_buffer_text(page, "; both in neutral.</p>\n");
 }
 
 static void range(gm_buffer *page, const gm_map *map)
 {
-    gm_buffer_text(page, "<h2>Range</h2>\n<p>The tables were made for ");
-    number(page, "input speeds up to ", map->speed_max, 6, " rad/s, ");
-    number(page, "input torques up to ", map->torque_max, 6, " N.m and ");
-    number(page, "an oil temperature of ", map->oil_temperature, 6, " K. ");
-    gm_buffer_text(
-        page, "Outside, edge values are used, <code>out_of_map</code> is true, and a "
-              "warning is given once.</p>\n<h2>Inertia</h2>\n<p>");
-    number(page, "output ", map->inertia_output, 6, " kg.m2");
-    for (int p = 0; p < map->n_paths; p++) {
-        gm_buffer_text(page, ", input flange of path %s", map->paths[p].name);
-        number(page, " ", map->paths[p].inertia, 6, " kg.m2");
-    }
-    gm_buffer_text(page, ". Against a stiff clutch with damping c [N.m.s/rad] the "
-                         "communication step has to stay below 2 J / c.</p>\n");
+    gm_page_heading(page, "Validity");
+    gm_page_number(page, "<p>The tables hold for input speeds up to ",
+                   map->speed_max * RPM, 5, " rpm");
+    gm_page_number(page, " (", map->speed_max, 5, " rad/s) in both directions, input ");
+    gm_page_number(page, "torques up to ", map->torque_max, 5,
+                   " N·m driving and driven, ");
+    gm_page_number(page, "and an oil temperature of ", map->oil_temperature - KELVIN, 4,
+                   " °C. ");
+    gm_buffer_text(page,
+                   "Outside, the value at the edge is used, <code>out_of_map</code> "
+                   "is true and a warning is given once. A number that is not finite "
+                   "is refused.</p>\n");
 }
 
-void gm_documentation_write(const gm_map *map, const char *guid, gm_buffer *buffer)
+/* ---- accuracy ---- */
+
+typedef struct accuracy {
+    const char *kind, *words;
+    int points;
+    double max, squares; /* of the largest loss of each case */
+} accuracy;
+
+static accuracy sum_up(const gm_document *d, const char *kind, const char *words)
 {
-    gm_buffer_text(buffer, "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta "
-                           "charset=\"utf-8\"><title>");
-    escaped(buffer, map->name);
-    gm_buffer_text(buffer, "</title></head>\n<body>\n<h1>");
-    escaped(buffer, map->title[0] ? map->title : map->name);
-    gm_buffer_text(
-        buffer,
-        "</h1>\n<p>A reduced gearset: ratios, inertias and losses from tables that were "
-        "computed with a detailed model. Torques are inputs, speeds are outputs, at "
-        "every "
-        "flange; torques count positive into the gearset. Engaged paths turn with the "
-        "output. Friction holds at standstill without creep. Any communication step is "
-        "accepted.</p>\n");
-    interface_table(buffer, map);
-    gear_table(buffer, map);
-    range(buffer, map);
-    gm_buffer_text(buffer, "<h2>Origin</h2>\n<p>gearmap %s<br>description SHA-256 ",
-                   GM_VERSION);
-    escaped(buffer, map->input_sha256);
-    gm_buffer_text(buffer, "<br>map content SHA-256 ");
-    escaped(buffer, map->content_hash);
-    gm_buffer_text(buffer, "<br>options ");
-    escaped(buffer, map->options);
-    gm_buffer_text(buffer, "<br>GUID %s</p>\n</body>\n</html>\n", guid);
+    accuracy a = {.kind = kind, .words = words};
+    for (int i = 0; i < d->n_errors; i++) {
+        const gm_map_error *e = &d->errors[i];
+        if (strcmp(e->kind, kind) != 0 || !(e->largest > 0))
+            continue;
+        a.points += e->points;
+        a.max = e->max / e->largest > a.max ? e->max / e->largest : a.max;
+        a.squares += e->points * (e->rms / e->largest) * (e->rms / e->largest);
+    }
+    return a;
+}
+
+static void accuracy_row(gm_buffer *page, const accuracy *a)
+{
+    if (a->points == 0)
+        return;
+    gm_buffer_text(page, "<tr><td>%s</td><td class=\"n\">%d</td>", a->words, a->points);
+    gm_page_number(page, "<td class=\"n\">", 100 * a->max, 3, " %</td>");
+    gm_page_number(page, "<td class=\"n\">", 100 * sqrt(a->squares / a->points), 3,
+                   " %</td></tr>\n");
+}
+
+static void accuracies(gm_buffer *page, const gm_document *d)
+{
+    static const char *const kinds[][2] = {
+        {"single", "loss, one path engaged"},
+        {"preselected", "loss, with a preselected gear"},
+        {"both_loaded", "loss, both paths loaded"},
+        {"drag", "drag of a shaft in neutral"},
+        {"reaction", "its reaction on the output"},
+    };
+    gm_page_heading(page, "Measured accuracy");
+    if (d->n_errors == 0) {
+        gm_buffer_text(page, "<p>Not measured when this file was made.</p>\n");
+        return;
+    }
+    gm_buffer_text(page,
+                   "<p>This FMU against the detailed model at random points off the "
+                   "grid of the tables, relative to the largest value of each gear "
+                   "and direction of rotation:</p>\n");
+    gm_page_table(page, "quantity|>points|>largest error|>RMS");
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        accuracy a = sum_up(d, kinds[i][0], kinds[i][1]);
+        accuracy_row(page, &a);
+    }
+    gm_page_table_end(page);
+}
+
+/* ---- variables ---- */
+
+static void start_value(gm_buffer *page, const gm_map *map, scalar s)
+{
+    const variable *v = &gm_bake_variables[s.id];
+    double start = v->start;
+    if (v->causality != CAUSALITY_INPUT && v->initial != INITIAL_EXACT) {
+        gm_buffer_text(page, "<td class=\"n\"></td>");
+        return;
+    }
+    if (s.id == VARIABLE_OIL_TEMPERATURE)
+        start = map->oil_temperature;
+    if (s.id == VARIABLE_PATH_SYNC_TORQUE)
+        start = map->paths[s.path].sync_torque;
+    if (start < 1e30)
+        gm_page_number(page, "<td class=\"n\">", start, 6, "</td>");
+    else
+        gm_buffer_text(page, "<td class=\"n\">1e30</td>");
+}
+
+static void variable_row(gm_buffer *page, const gm_map *map, scalar s)
+{
+    static const char *const type[] = {"Real", "Integer", "Boolean", "Enumeration",
+                                       "Enumeration"};
+    const variable *v = &gm_bake_variables[s.id];
+    gm_buffer_text(page, "<tr><td><code>%s%s%s</code></td><td>%s</td><td>%s</td>",
+                   s.path < 0 ? "" : map->paths[s.path].name, s.path < 0 ? "" : ".",
+                   v->name, type[v->type], v->unit);
+    start_value(page, map, s);
+    gm_buffer_text(page, "<td>");
+    gm_page_escaped(page, v->description);
+    gm_buffer_text(page, "%s</td></tr>\n",
+                   v->causality == CAUSALITY_PARAMETER &&
+                           v->variability == VARIABILITY_TUNABLE
+                       ? " (may change during a run)"
+                       : "");
+}
+
+static void variables_of(gm_buffer *page, const gm_map *map, int causality,
+                         const char *heading)
+{
+    scalar all[2 * N_VARIABLES];
+    int n = gm_bake_scalars(map->n_paths, all);
+    gm_page_heading(page, heading);
+    gm_page_table(page, "name|type|unit|>start|meaning");
+    for (int i = 0; i < n; i++)
+        if (gm_bake_variables[all[i].id].causality == causality)
+            variable_row(page, map, all[i]);
+    gm_page_table_end(page);
+}
+
+/* ---- origin ---- */
+
+static void origin_row(gm_buffer *page, const char *name, const char *value)
+{
+    gm_buffer_text(page, "<tr><td>%s</td><td><code>", name);
+    gm_page_escaped(page, value[0] ? value : "unknown");
+    gm_buffer_text(page, "</code></td></tr>\n");
+}
+
+static void origin(gm_buffer *page, const gm_document *d)
+{
+    gm_page_heading(page, "How it was made");
+    gm_page_table(page, "what|value");
+    origin_row(page, "generator", "gearmap " GM_VERSION);
+    origin_row(page, "map made by", d->map->tool_version);
+    origin_row(page, "SHA-256 of the description", d->map->input_sha256);
+    origin_row(page, "options of the sweep", d->map->options);
+    origin_row(page, "SHA-256 of the map's content", d->map->content_hash);
+    origin_row(page, "GUID, from the interface and the tables", d->guid);
+    gm_page_table_end(page);
+    gm_buffer_text(page,
+                   "<p>Same map, options, tool and compiler: the same bytes. The map, "
+                   "an SQLite database, is in <code>extra/gearmap/</code>; the C "
+                   "sources (C99, the C library only) in <code>sources/</code>, with "
+                   "the tables in <code>gm_tables.h</code>. Compile them with "
+                   "<code>-ffp-contract=off</code> for the same bits as the library "
+                   "in <code>binaries/</code>.</p>\n");
+    gm_buffer_text(page, "<p>Licence of the sources: <a href=\"licenses/license.txt\">"
+                         "BSD-2-Clause</a>. The model and its tables belong to whoever "
+                         "made the description.</p>\n");
+}
+
+void gm_documentation_write(const gm_document *d, gm_buffer *page)
+{
+    gm_page_begin(page, title_of(d->map));
+    introduction(page, d->map);
+    usage(page);
+    gear_table(page, d->map);
+    range(page, d->map);
+    accuracies(page, d);
+    variables_of(page, d->map, CAUSALITY_INPUT, "Inputs");
+    variables_of(page, d->map, CAUSALITY_OUTPUT, "Outputs");
+    variables_of(page, d->map, CAUSALITY_PARAMETER, "Parameters");
+    origin(page, d);
+    gm_page_end(page);
 }

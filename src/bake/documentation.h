@@ -1,14 +1,23 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * documentation/index.html of an FMU: what it is, its variables, its range, its origin.
+ * documentation/index.html of an FMU: what it is, how to use it, its variables, its
+ * range, how accurate it is and how it was made. One page that needs nothing but the
+ * picture beside modelDescription.xml.
  */
 #ifndef DOCUMENTATION_H
 #define DOCUMENTATION_H
 
 #include "bake/buffer.h"
-#include "map/gm_map.h"
+#include "map/gm_map_file.h"
+
+typedef struct gm_document {
+    const gm_map *map;
+    const char *guid;
+    int n_errors; /* 0: not measured */
+    const gm_map_error *errors;
+} gm_document;
 
 /** Append the whole page. Memory failures are in buffer->failed. */
-void gm_documentation_write(const gm_map *map, const char *guid, gm_buffer *buffer);
+void gm_documentation_write(const gm_document *document, gm_buffer *buffer);
 
 #endif

@@ -3,8 +3,8 @@
  * An FMI 2.0 FMU from a map: tables, model description, documentation, the component's
  * sources as they stand, and a library compiled from exactly these sources.
  *
- *   binaries/linux64/<name>.so   documentation/index.html   licenses/license.txt
- *   modelDescription.xml         sources/
+ *   binaries/linux64/<name>.so   documentation/index.html, licenses/license.txt
+ *   modelDescription.xml         model.png   sources/   extra/gearmap/<name>.map
  *
  * The GUID is a SHA-256 over the description and the tables (with an empty GUID in both),
  * in the shape of a UUID.
@@ -15,6 +15,7 @@
 #include "bake/documentation.h"
 #include "bake/model_description.h"
 #include "bake/package.h"
+#include "bake/picture.h"
 #include "bake/tables.h"
 #include "base/alloc.h"
 #include "base/sha256.h"
@@ -29,6 +30,7 @@
 #include <unistd.h>
 
 #define IDENTIFIER_SIZE 64
+#define DOCUMENTATION "documentation/index.html"
 
 /* What the steps of one bake share. */
 typedef struct job {
@@ -102,7 +104,8 @@ static gm_status add_sources(job *j)
     if (status != GM_OK)
         return status;
     snprintf(path, sizeof path, "%s/LICENSE", j->options->share);
-    return gm_package_add_file(&j->package, "licenses/license.txt", path, j->error);
+    return gm_package_add_file(&j->package, "documentation/licenses/license.txt", path,
+                               j->error);
 }
 
 /* Names of the C files in the package, sorted, pointing into it; NULL: no memory. */
@@ -160,14 +163,49 @@ static gm_status make_guid(job *j)
     return status;
 }
 
+/* documentation/index.html; j->guid is known. */
+static gm_status add_documentation(job *j)
+{
+    const gm_document document = {.map = j->map,
+                                  .guid = j->guid,
+                                  .n_errors = j->options->n_errors,
+                                  .errors = j->options->errors};
+    gm_buffer page = {0};
+    gm_documentation_write(&document, &page);
+    return gm_package_add(&j->package, DOCUMENTATION, &page, j->error);
+}
+
+static gm_status add_picture(job *j)
+{
+    gm_buffer picture = {0};
+    gm_status status = gm_picture_write(j->map, j->reduced, &picture, j->error);
+    if (status == GM_OK)
+        status = gm_package_add(&j->package, "model.png", &picture, j->error);
+    gm_buffer_clear(&picture);
+    return status;
+}
+
+static gm_status add_map(job *j)
+{
+    char name[IDENTIFIER_SIZE + 32];
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    gm_buffer file = {0};
+    gm_status status = gm_map_to_bytes(j->map, &bytes, &size, j->error);
+    if (status != GM_OK)
+        return status;
+    gm_buffer_bytes(&file, bytes, size);
+    gm_free(bytes);
+    snprintf(name, sizeof name, "extra/gearmap/%s.map", j->identifier);
+    return gm_package_add(&j->package, name, &file, j->error);
+}
+
 static gm_status add_texts(job *j)
 {
-    gm_buffer description = {0}, tables = {0}, page = {0};
+    gm_buffer description = {0}, tables = {0};
     gm_status status = make_texts(j, &description, &tables);
-    if (status == GM_OK) {
-        gm_documentation_write(j->map, j->guid, &page);
-        status = gm_package_add(&j->package, "documentation/index.html", &page, j->error);
-    }
+    if (status == GM_OK)
+        status = add_documentation(j);
     if (status == GM_OK)
         status =
             gm_package_add(&j->package, "modelDescription.xml", &description, j->error);
@@ -175,7 +213,6 @@ static gm_status add_texts(job *j)
         status = gm_package_add(&j->package, "sources/gm_tables.h", &tables, j->error);
     gm_buffer_clear(&description);
     gm_buffer_clear(&tables);
-    gm_buffer_clear(&page);
     gm_package_sort(&j->package);
     return status;
 }
@@ -241,6 +278,10 @@ static gm_status build_package(job *j)
         status = make_guid(j);
     if (status == GM_OK)
         status = add_texts(j);
+    if (status == GM_OK)
+        status = add_picture(j);
+    if (status == GM_OK)
+        status = add_map(j);
     if (status == GM_OK)
         status = add_library(j);
     return status;
@@ -328,4 +369,15 @@ gm_status gm_bake_fmu2(const gm_map *map, const gm_bake_options *options,
     gm_map_view_destroy(view);
     gm_package_clear(&j.package);
     return status;
+}
+
+gm_status gm_bake_document(const char *path, const gm_map *map,
+                           const gm_bake_summary *summary, int n_errors,
+                           const gm_map_error *errors, gm_error *error)
+{
+    const gm_document document = {
+        .map = map, .guid = summary->guid, .n_errors = n_errors, .errors = errors};
+    gm_buffer page = {0};
+    gm_documentation_write(&document, &page);
+    return gm_package_replace(path, DOCUMENTATION, &page, error);
 }

@@ -6,7 +6,7 @@
 #ifndef GM_BAKE_H
 #define GM_BAKE_H
 
-#include "map/gm_map.h"
+#include "map/gm_map_file.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -15,6 +15,8 @@ extern "C" {
 typedef struct gm_bake_options {
     const char *share;    /* folder with core/, fmu/ and fmi2/ sources to ship */
     const char *compiler; /* C compiler; NULL: $CC, then cc, gcc, clang from the path */
+    int n_errors;         /* measured errors for the documentation; 0: none */
+    const gm_map_error *errors; /* [n_errors] */
 } gm_bake_options;
 
 typedef struct gm_bake_summary {
@@ -30,6 +32,13 @@ typedef struct gm_bake_summary {
 GM_NODISCARD gm_status gm_bake_fmu2(const gm_map *map, const gm_bake_options *options,
                                     const char *path, gm_bake_summary *summary,
                                     gm_error *error);
+
+/** Write measured errors into the documentation of the FMU at path, which was baked from
+ *  this map; all else stays as it is, and so does the file on failure. The result is that
+ *  of baking with the errors. GM_ERR_IO, GM_ERR_FORMAT, GM_ERR_MEMORY. */
+GM_NODISCARD gm_status gm_bake_document(const char *path, const gm_map *map,
+                                        const gm_bake_summary *summary, int n_errors,
+                                        const gm_map_error *errors, gm_error *error);
 
 #ifdef __cplusplus
 }

@@ -60,7 +60,8 @@ static void write_root(xml *x, const gm_description_options *options)
     gm_xml_foreign_text(x, "version",
                         x->map->content_hash[0] ? x->map->content_hash : "1");
     gm_xml_text(x, "copyright", "C sources: the gearmap authors");
-    gm_xml_text(x, "license", "C sources: BSD-2-Clause, see licenses/license.txt");
+    gm_xml_text(x, "license",
+                "C sources: BSD-2-Clause, see documentation/licenses/license.txt");
     gm_xml_text(x, "generationTool", "gearmap " GM_VERSION);
     write_date(x);
     gm_xml_text(x, "variableNamingConvention", "structured");

@@ -145,10 +145,24 @@ gm_status gm_package_extract(const gm_package *package, const char *prefix,
 /* Year 0 of zip's clock: 1980-01-01 00:00. */
 enum { ZIP_DATE = (1 << 5) | 1, ZIP_TIME = 0 };
 
+/* Nothing of this machine and moment in an entry. */
+static bool set_entry(zip_t *zip, zip_int64_t index)
+{
+    zip_uint64_t i = (zip_uint64_t)index;
+    return zip_set_file_compression(zip, i, ZIP_CM_DEFLATE, 9) == 0 &&
+           zip_file_set_dostime(zip, i, ZIP_TIME, ZIP_DATE, 0) == 0 &&
+           zip_file_set_external_attributes(zip, i, 0, ZIP_OPSYS_UNIX, 0100644u << 16) ==
+               0;
+}
+
+static zip_source_t *source_of(zip_t *zip, const gm_buffer *content)
+{
+    return zip_source_buffer(zip, content->data ? content->data : "", content->size, 0);
+}
+
 static bool add_entry(zip_t *zip, const gm_package_file *file)
 {
-    const char *data = file->content.data ? file->content.data : "";
-    zip_source_t *source = zip_source_buffer(zip, data, file->content.size, 0);
+    zip_source_t *source = source_of(zip, &file->content);
     if (!source)
         return false;
     zip_int64_t index = zip_file_add(zip, file->name, source, ZIP_FL_ENC_UTF_8);
@@ -156,11 +170,32 @@ static bool add_entry(zip_t *zip, const gm_package_file *file)
         zip_source_free(source);
         return false;
     }
-    zip_uint64_t i = (zip_uint64_t)index;
-    return zip_set_file_compression(zip, i, ZIP_CM_DEFLATE, 9) == 0 &&
-           zip_file_set_dostime(zip, i, ZIP_TIME, ZIP_DATE, 0) == 0 &&
-           zip_file_set_external_attributes(zip, i, 0, ZIP_OPSYS_UNIX, 0100644u << 16) ==
-               0;
+    return set_entry(zip, index);
+}
+
+static bool replace_entry(zip_t *zip, const char *name, const gm_buffer *content)
+{
+    zip_int64_t index = zip_name_locate(zip, name, 0);
+    zip_source_t *source = index < 0 ? NULL : source_of(zip, content);
+    if (!source)
+        return false;
+    if (zip_file_replace(zip, (zip_uint64_t)index, source, ZIP_FL_ENC_UTF_8) < 0) {
+        zip_source_free(source);
+        return false;
+    }
+    return set_entry(zip, index);
+}
+
+/* Close with what was changed; on failure nothing was. */
+static gm_status close_archive(zip_t *zip, bool good, const char *path, gm_error *error)
+{
+    if (good && zip_close(zip) == 0)
+        return GM_OK;
+    gm_status status = gm_fail(error, GM_ERR_IO, "%s: the archive cannot be written%s%s",
+                               path, zip ? ": " : "", zip ? zip_strerror(zip) : "");
+    if (zip)
+        zip_discard(zip);
+    return status;
 }
 
 gm_status gm_package_write(const gm_package *package, const char *path, gm_error *error)
@@ -170,12 +205,23 @@ gm_status gm_package_write(const gm_package *package, const char *path, gm_error
     bool good = zip != NULL;
     for (int i = 0; good && i < package->n; i++)
         good = add_entry(zip, &package->files[i]);
-    if (good && zip_close(zip) == 0)
-        return GM_OK;
-    gm_status status = gm_fail(error, GM_ERR_IO, "%s: the archive cannot be written%s%s",
-                               path, zip ? ": " : "", zip ? zip_strerror(zip) : "");
-    if (zip)
-        zip_discard(zip);
+    return close_archive(zip, good, path, error);
+}
+
+gm_status gm_package_replace(const char *path, const char *name, gm_buffer *content,
+                             gm_error *error)
+{
+    struct stat info;
+    int code;
+    bool known = stat(path, &info) == 0;
+    zip_t *zip = zip_open(path, 0, &code);
+    bool good = known && zip && !content->failed && replace_entry(zip, name, content);
+    gm_status status = close_archive(zip, good, path, error);
+    gm_buffer_clear(content);
+    /* the archive library replaces the file by one with rights of its own choice */
+    if (status == GM_OK && chmod(path, info.st_mode & 0777) != 0)
+        status =
+            gm_fail(error, GM_ERR_IO, "%s: cannot be written: %s", path, strerror(errno));
     return status;
 }
 

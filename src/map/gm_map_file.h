@@ -10,6 +10,7 @@
 #include "map/gm_map.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -20,6 +21,12 @@ extern "C" {
  *  version, an unfinished sweep, truncated or damaged (its content does not give its
  *  content hash); GM_ERR_MEMORY. What is allocated is bounded by the size of the file. */
 GM_NODISCARD gm_status gm_map_read(const char *path, gm_map **map, gm_error *error);
+
+/** A finished map as the bytes of its file, without measured errors. The same map gives
+ *  the same bytes (of the same SQLite). *bytes is the caller's, to be freed with gm_free.
+ *  GM_ERR_FORMAT when the map is not complete, GM_ERR_MEMORY. */
+GM_NODISCARD gm_status gm_map_to_bytes(const gm_map *map, unsigned char **bytes,
+                                       size_t *size, gm_error *error);
 
 /** Error of the component that was made from a map, measured at points not on its grid.
  */
@@ -37,6 +44,12 @@ typedef struct gm_map_error {
  *  of any that are there. Map and content hash stay as they are. */
 GM_NODISCARD gm_status gm_map_put_errors(const char *path, long long seed, int n,
                                          const gm_map_error *errors, gm_error *error);
+
+/** The measured errors in a map's file: *errors[*n], NULL and 0 when there are none. Free
+ *  with gm_map_errors_free. GM_ERR_IO, GM_ERR_FORMAT, GM_ERR_MEMORY. */
+GM_NODISCARD gm_status gm_map_get_errors(const char *path, int *n, gm_map_error **errors,
+                                         gm_error *error);
+void gm_map_errors_free(int n, gm_map_error *errors);
 
 /** A sweep's journal beside the map to be. */
 typedef struct gm_journal gm_journal;

@@ -68,6 +68,12 @@ gm_status gm_db_open(const char *path, gm_db *db, gm_error *error)
     return status;
 }
 
+gm_status gm_db_open_memory(gm_db *db, gm_error *error)
+{
+    return open_as(":memory:", "the map in memory",
+                   SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, db, error);
+}
+
 gm_status gm_db_open_constant(const char *path, gm_db *db, gm_error *error)
 {
     char *uri = uri_of(path, "?immutable=1");

@@ -20,6 +20,9 @@ typedef struct gm_db {
 /** Open for reading and writing, created when missing. On failure *db is empty. */
 GM_NODISCARD gm_status gm_db_open(const char *path, gm_db *db, gm_error *error);
 
+/** A new database that no file holds. */
+GM_NODISCARD gm_status gm_db_open_memory(gm_db *db, gm_error *error);
+
 /** Open read-only as a file that nobody changes: no lock, no file beside it. */
 GM_NODISCARD gm_status gm_db_open_constant(const char *path, gm_db *db, gm_error *error);
 

@@ -133,21 +133,6 @@ static gm_status check_complete(const gm_journal *journal, const gm_map *map,
     return gm_map_check(map, error);
 }
 
-static gm_status write_head(const gm_db *db, const gm_map *map, gm_error *error)
-{
-    char provenance[65];
-    gm_status status = gm_meta_provenance(map, provenance, error);
-    if (status == GM_OK)
-        status = gm_meta_write(db, map, error);
-    if (status == GM_OK)
-        status = gm_meta_put(db, GM_META_PROVENANCE, provenance, error);
-    if (status == GM_OK)
-        status = gm_frame_write_paths(db, map, error);
-    if (status == GM_OK)
-        status = gm_meta_put(db, GM_META_STATE, GM_META_FINISHED, error);
-    return status;
-}
-
 /* Make the journal a map: all that was still missing, then no log beside it. */
 static gm_status seal(gm_journal *journal, const gm_map *map, gm_error *error)
 {
@@ -157,7 +142,7 @@ static gm_status seal(gm_journal *journal, const gm_map *map, gm_error *error)
         status = gm_db_run(db, "BEGIN", error);
     if (status != GM_OK)
         return status;
-    status = write_head(db, map, error);
+    status = gm_frame_write_head(db, map, error);
     if (status == GM_OK)
         status = gm_db_run(db, "COMMIT", error);
     else

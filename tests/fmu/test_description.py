@@ -124,7 +124,7 @@ def test_source_files_are_those_in_the_archive(baked):
     assert sorted(files) == sorted(n.removeprefix("sources/") for n in names
                                    if n.startswith("sources/") and n.endswith(".c"))
     assert names == sorted(names)
-    for needed in ("documentation/index.html", "licenses/license.txt",
+    for needed in ("documentation/index.html", "documentation/licenses/license.txt",
                    "sources/gm_tables.h", "sources/fmi2Functions.h"):
         assert needed in names
 
