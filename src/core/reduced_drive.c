@@ -153,9 +153,8 @@ gm_real gm_loss_power(const gm_drive *d, const gm_solution *s)
     for (int p = 0; p < d->n_paths; p++) {
         const gm_path_terms *t = &s->terms.path[p];
         if (d->elastic[p]) {
-            const gm_stride stride = {d->h, gm_slip(d, &s->point, p), d->late};
             sum += t->load * d->ratio[p] * m_o + t->drag * m[p];
-            sum += gm_spring_at(d->gear[p], d->twist[p], &stride).power;
+            sum += s->spring[p].power;
         } else if (d->engaged[p]) {
             sum += t->load * m[p];
         } else {

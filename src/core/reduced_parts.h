@@ -49,6 +49,9 @@ typedef struct gm_spring_gradient {
 gm_spring_gradient gm_spring_gradient_at(const gm_gear *gear, gm_real twist,
                                          gm_real slip);
 
+/** Torque of a gear's spring where it does not move [N.m]. */
+gm_real gm_spring_rest_torque(const gm_gear *gear, gm_real twist);
+
 /* How the slips of elastic paths yield to their springs: slip_p = free_p - sum_q
  * y[p][q] (T_q - reference_q). */
 typedef struct gm_yield {
@@ -117,8 +120,8 @@ typedef struct gm_terms {
 } gm_terms;
 
 typedef struct gm_solution {
-    gm_real
-        slip[GM_MAX_PATHS]; /* of elastic paths, that the springs' torques belong to */
+    gm_real slip[GM_MAX_PATHS];     /* of elastic paths, */
+    gm_spring spring[GM_MAX_PATHS]; /* and their springs there */
     gm_real lead; /* when in the sub-step C is read: theta h, see reduced_terms.c */
     gm_point point;
     gm_terms terms;          /* the very torques of the momentum balance */
@@ -268,10 +271,10 @@ static inline gm_real gm_slip(const gm_drive *d, const gm_point *at, int p)
     return at->m[p] - d->ratio[p] * at->m[GM_OUT];
 }
 
-/** Torques of all springs that fit the slips they cause. slip: where they are read first,
- *  receives what they belong to; torque: the reference, receives the torques. */
-void gm_springs_meet(const gm_drive *d, const gm_yield *yield, gm_real slip[GM_MAX_PATHS],
-                     gm_real torque[GM_MAX_PATHS]);
+/** Torques of all springs that fit the slips they cause. In: s->slip and s->spring, where
+ *  the springs are read first; s->point.spring, the reference. Out: the slips, the springs
+ *  there, and the torques in s->point.spring. */
+void gm_springs_meet(const gm_drive *d, const gm_yield *yield, gm_solution *s);
 
 /** Pin and transmitted torque of elastic path p, for direction sign_o of the output, with
  *  the spring's torque at *point. */
@@ -295,6 +298,17 @@ int gm_drag_holds(const gm_drive *d, const gm_solution *s, int p, const gm_point
  */
 int gm_terms_hold(const gm_drive *d, gm_solution *s, const gm_point *point,
                   const gm_point *next);
+
+/** What is left of the torques on the output, on path p, beyond inertia [N.m]. */
+gm_real gm_output_balance(const gm_drive *d, const gm_terms *terms,
+                          const gm_point *point);
+gm_real gm_path_balance(const gm_drive *d, const gm_terms *terms, const gm_point *point,
+                        int p);
+
+/** Changes of the accelerations at point [GM_SHAFTS] that bring the linearised balances
+ *  to zero, with the springs' torques in s->point. May drop gradients of s->terms. */
+void gm_newton_change(const gm_drive *d, gm_solution *s, const gm_point *point,
+                      gm_real *change);
 
 /** Motion over d->h from the speeds d->w: accelerations, held shafts, loss torques. */
 void gm_solve(const gm_drive *d, gm_solution *s);

@@ -114,6 +114,12 @@ gm_spring_gradient gm_spring_gradient_at(const gm_gear *gear, gm_real twist, gm_
     return g;
 }
 
+gm_real gm_spring_rest_torque(const gm_gear *gear, gm_real twist)
+{
+    const gm_real e = gm_not_below_zero(gm_abs(twist) - gear->lash / 2);
+    return twist < 0 ? -gear->stiffness * e : gear->stiffness * e;
+}
+
 gm_real gm_spring_energy(const gm_gear *gear, gm_real twist)
 {
     const gm_real e = gm_not_below_zero(gm_abs(twist) - gear->lash / 2);
@@ -232,15 +238,15 @@ static void newton_step(const gm_drive *d, const gm_yield *yield, meeting *m)
     }
 }
 
-void gm_springs_meet(const gm_drive *d, const gm_yield *yield, gm_real slip[GM_MAX_PATHS],
-                     gm_real torque[GM_MAX_PATHS])
+void gm_springs_meet(const gm_drive *d, const gm_yield *yield, gm_solution *s)
 {
-    meeting m = {{slip[0], slip[1]}, {torque[0], torque[1]}, {{0, 0, 0}, {0, 0, 0}}};
-    gm_real error[GM_MAX_PATHS], more[GM_MAX_PATHS], moved[GM_MAX_PATHS];
-    read_springs(d, &m);
+    gm_real *torque = s->point.spring, error[GM_MAX_PATHS], more[GM_MAX_PATHS],
+            moved[GM_MAX_PATHS];
+    meeting m = {
+        {s->slip[0], s->slip[1]}, {torque[0], torque[1]}, {s->spring[0], s->spring[1]}};
     for (int p = 0; p < GM_MAX_PATHS; p++) {
         error[p] = m.spring[p].torque - torque[p] +
-                   m.spring[p].slope * (yield->free[p] - slip[p]);
+                   m.spring[p].slope * (yield->free[p] - m.slip[p]);
     }
     solve_pair(yield, &m, error, more);
     yield_to(yield, more, moved);
@@ -253,7 +259,8 @@ void gm_springs_meet(const gm_drive *d, const gm_yield *yield, gm_real slip[GM_M
         newton_step(d, yield, &m);
     }
     for (int p = 0; p < GM_MAX_PATHS; p++) {
-        slip[p] = m.slip[p];
+        s->slip[p] = m.slip[p];
+        s->spring[p] = m.spring[p];
         torque[p] = m.used[p];
     }
 }

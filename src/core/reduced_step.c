@@ -23,6 +23,10 @@ enum { GM_LOCATE = 16 }; /* solutions to locate one event */
 
 #define GM_RESOLVED 4 /* (omega h)^2 that a sub-step follows at its mean speeds */
 
+/* Changes of a spring's torque, relative and in N.m, that need not be followed. */
+#define CALM 0.02
+#define CALM_NM 0.2
+
 #define GM_EVENT_TOLERANCE 1e-10 /* of the speed at the start of the sub-step */
 
 /* Events: shafts 0, 1, GM_OUT come to rest, then synchronisers 0, 1 close. */
@@ -209,38 +213,36 @@ static void treat_events(const gm_reduced_map *map, const gm_reduced_params *par
 }
 
 /* Whether a shaft turns round, or a synchroniser's slip does. */
-static int passes_event(const gm_drive *d, const gm_motion *s)
+static int passes_event(const gm_drive *d, const gm_solution *s)
 {
-    const gm_real w_o = d->w[GM_OUT];
-    int passed = w_o * s->w_o < 0;
+    const gm_real w_o = d->w[GM_OUT] + d->h * s->point.a[GM_OUT];
+    int passed = d->w[GM_OUT] * w_o < 0;
     for (int p = 0; p < d->n_paths; p++) {
         if (d->own[p]) {
-            const gm_real slip = s->path[p].w - d->ratio[p] * s->w_o;
-            passed |= d->w[p] * s->path[p].w < 0 || d->cone[p] * slip < 0;
+            const gm_real w = d->w[p] + d->h * s->point.a[p];
+            passed |= d->w[p] * w < 0 || d->cone[p] * (w - d->ratio[p] * w_o) < 0;
         }
     }
     return passed;
 }
 
-/* Again from *from, which the sub-step has left, to its first event. */
+/* The sub-step, solved in *solution, no further than to its first event. */
 static void stop_at_event(const gm_reduced_map *map, const gm_reduced_params *params,
                           const gm_reduced_inputs *in, const gm_span *span, gm_drive *d,
-                          gm_solution *solution, const gm_motion *from, gm_motion *s)
+                          gm_solution *solution, gm_motion *s)
 {
     gm_real start[GM_EVENTS], end[GM_EVENTS], w[GM_SHAFTS];
     event_speeds(d, d->w, start);
     end_speeds(d, solution, w);
     event_speeds(d, w, end);
     int event = first_event(start, end);
-    if (event < 0) {
-        return;
-    }
-    if (!span->last) {
+    if (event >= 0 && !span->last) {
         event = locate(in, span->start, start, end, d, solution);
     }
-    *s = *from;
     advance(d, solution, s);
-    treat_events(map, params, d, event, start, end, s);
+    if (event >= 0) {
+        treat_events(map, params, d, event, start, end, s);
+    }
 }
 
 /* Length of a sub-step: all that is left, or an equal part of it while an elastic path
@@ -261,19 +263,48 @@ static gm_real part_of(const gm_drive *d, const gm_span *span)
     return span->rest / left;
 }
 
+/* Whether the springs' torques stay nearly what they are: there is no vibration that
+ * would be worth following in parts of the step. */
+static int is_calm(const gm_drive *d, const gm_solution *s)
+{
+    for (int p = 0; p < d->n_paths; p++) {
+        if (d->elastic[p]) {
+            const gm_real now = gm_spring_rest_torque(d->gear[p], d->twist[p]);
+            if (gm_abs(s->point.spring[p] - now) > CALM * gm_abs(now) + CALM_NM) {
+                return 0;
+            }
+        }
+    }
+    return 1;
+}
+
+/* A step begins with an attempt to be done in one. */
+static void solve_part(const gm_reduced_inputs *in, const gm_span *span, gm_real part,
+                       gm_drive *d, gm_solution *solution)
+{
+    if (part < span->rest && span->start == 0) {
+        gm_set_span(in, 0, span->rest, d);
+        gm_solve(d, solution);
+        if (is_calm(d, solution)) {
+            return;
+        }
+    }
+    gm_set_span(in, span->start, part, d);
+    gm_solve(d, solution);
+}
+
 gm_real gm_substep(const gm_reduced_map *map, const gm_reduced_params *params,
                    const gm_reduced_inputs *in, const gm_span *span,
                    gm_reduced_cache *cache, gm_motion *s, int *outside)
 {
     gm_drive d;
     gm_solution solution;
-    const gm_motion from = *s;
     gm_make_drive(map, params, s, cache, &d);
-    gm_set_span(in, span->start, part_of(&d, span), &d);
-    gm_solve(&d, &solution);
-    advance(&d, &solution, s);
-    if (passes_event(&d, s)) {
-        stop_at_event(map, params, in, span, &d, &solution, &from, s);
+    solve_part(in, span, part_of(&d, span), &d, &solution);
+    if (passes_event(&d, &solution)) {
+        stop_at_event(map, params, in, span, &d, &solution, s);
+    } else {
+        advance(&d, &solution, s);
     }
     *outside |= solution.terms.outside;
     return d.h;
