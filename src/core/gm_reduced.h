@@ -31,7 +31,7 @@
  * Time stepping: implicit in the signs (exact stiction, no creep), tables and their
  * speed gradients at the middle of the step, angles by the trapezoid rule; so the energy
  * account (work = kinetic + elastic + loss) closes to rounding on every step, with
- * springs to 1e-11. Vibrations of the springs are followed in up to four parts of a step;
+ * springs to 1e-11. Vibrations of the springs are followed in up to two parts of a step;
  * those that are faster than that die out (reduced_drive.c): any step is stable.
  *
  * No allocation, no I/O, no globals, only + - * / : the same bits on every platform.

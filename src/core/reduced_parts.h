@@ -12,7 +12,7 @@
 #include "gm_reduced_modes.h"
 
 /* Sub-steps that a vibration may ask for in one step. */
-enum { GM_PARTS = 4 };
+enum { GM_PARTS = 2 };
 
 enum { GM_OUT = GM_MAX_PATHS, GM_SHAFTS = GM_MAX_PATHS + 1 };
 
