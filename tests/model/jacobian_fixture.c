@@ -25,7 +25,7 @@ void sparse_clear(sparse *s)
 
 static int random_gear(const gm_path_part *path, uint64_t *seed)
 {
-    int k = (int)(random_unit(seed) * (path->n_gears + 1));
+    int k = (int)(random_unit(seed) * (path->n_gears + path->has_neutral));
     return k == path->n_gears ? 0 : path->gears[k].number;
 }
 
