@@ -174,6 +174,10 @@ static gm_status unknown_column(const reader *r, const char *name)
     const char *names[MAX_COLUMNS];
     for (int i = 0; i < r->n_known; i++)
         names[i] = r->known[i].name;
+    if (strpbrk(name, ";\t"))
+        return gm_fail(r->error, GM_ERR_FORMAT,
+                       "%s:%d: found '%s'; columns are separated by commas", r->path,
+                       r->line, shown(name, text));
     int near = gm_text_nearest(name, names, r->n_known);
     if (near >= 0)
         return gm_fail(r->error, GM_ERR_FORMAT,
