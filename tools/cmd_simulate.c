@@ -140,6 +140,15 @@ static const gm_result_form form = {print_text, print_json};
 
 /* ---- the run ---- */
 
+/* i steps as a number that a schedule may hold too: 920 steps of 10 ms are 9.2 s, while
+ * 920 times 0.01 is a hair more. */
+static double multiple(long i, double step)
+{
+    double per_second = round(1.0 / step);
+    return fabs(per_second * step - 1.0) < 1e-9 ? (double)i / per_second
+                                                : (double)i * step;
+}
+
 static gm_status write_rows(gm_transient *transient, gm_recording *recording,
                             const simulated *s, double from, gm_error *error)
 {
@@ -149,7 +158,7 @@ static gm_status write_rows(gm_transient *transient, gm_recording *recording,
     gm_status status = GM_OK;
     gm_progress_begin(&progress);
     for (long i = 0; i <= n && status == GM_OK; i++) {
-        double t = from + fmin((double)i * step, s->duration);
+        double t = from + fmin(multiple(i, step), s->duration);
         status = gm_transient_advance(transient, t, error);
         if (status == GM_OK)
             status = gm_recording_row(recording, t, gm_transient_state(transient), error);

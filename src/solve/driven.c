@@ -200,20 +200,34 @@ static double stored_energy(gm_driven *d, double t, const double *x)
     return now.stored;
 }
 
+/* Does a driven speed rise otherwise than before? Then rates jump. */
+static int bends(const gm_driven *d, const gm_drive_point *before, double t)
+{
+    gm_drive_point now = {0};
+    int bend = 0;
+    d->drive.at(d->drive.user, t, &now);
+    for (int j = 0; j < d->n_driven; j++)
+        bend |= now.acceleration[d->driven[j]] != before->acceleration[d->driven[j]];
+    return bend;
+}
+
 static gm_status enter(void *user, double t, double *x, gm_transient_piece *piece,
                        gm_error *error)
 {
     gm_driven *d = user;
     int jump = 0, changed = 0;
-    double before = stored_energy(d, t, x);
+    gm_drive_point before = {0};
+    double stored = stored_energy(d, t, x);
+    d->drive.at(d->drive.user, t, &before);
     piece->end = d->drive.enter(d->drive.user, t, &jump);
     forget(d);
-    if (jump) {
+    if (jump || bends(d, &before, t)) {
         set_speeds(d, t, x);
-        piece->work = stored_energy(d, t, x) - before;
+        piece->work = stored_energy(d, t, x) - stored;
+        piece->restart = 1;
     }
     gm_status status = handle(d, t, x, &changed, error);
-    piece->restart = jump || changed;
+    piece->restart |= changed;
     return status;
 }
 

@@ -22,7 +22,7 @@ extern "C" {
 /** What begins at one instant. */
 typedef struct gm_transient_piece {
     double end; /* s, later than now: the inputs are smooth up to here; may be infinite */
-    int restart; /* 1: x or the rates jump here; 0: a kink at most */
+    int restart; /* 1: x or the rates jump here; 0: a kink of the rates at most */
     double work; /* J put in by a jump of prescribed speeds */
 } gm_transient_piece;
 
