@@ -31,9 +31,10 @@ static void loss_factors_of_the_example(void **state)
     static const struct {
         const char *mesh;
         double H_V;
-    } table[] = {{"first", .15180},   {"second", .13316},  {"third", .10756},
-                 {"fourth", .09577},  {"fifth", .11214},   {"sixth", .10318},
-                 {"seventh", .11866}, {"final_drive_1", .15851}, {"final_drive_2", .12552}};
+    } table[] = {
+        {"first", .15180},   {"second", .13316},        {"third", .10756},
+        {"fourth", .09577},  {"fifth", .11214},         {"sixth", .10318},
+        {"seventh", .11866}, {"final_drive_1", .15851}, {"final_drive_2", .12552}};
     gm_description *d = gm_test_read(EXAMPLE);
     gm_gearset *g = NULL;
     assert_int_equal(gm_gearset_create(d, 353.15, &g, NULL), GM_OK);
