@@ -155,7 +155,7 @@ static collection find_collection(const gm_field_reader *r, const gm_section *se
     collection c = {.size = section->size};
     memcpy(&items, d + offset, sizeof items);
     memcpy(&c.n, d + field->count_offset, sizeof c.n);
-    c.first = items + section->label;
+    c.first = items ? items + section->label : NULL; /* none: n is 0 */
     return c;
 }
 

@@ -190,7 +190,7 @@ static gm_status set_fidelity(gm_fmu_motion *m, gm_error *error)
     unsigned reference = 0;
     gm_status status = gm_fmu_find(m->fmu, "fidelity", &reference, error);
     return status == GM_OK
-               ? gm_fmu_set_integer(m->fmu, reference, m->plant->fidelity, error)
+               ? gm_fmu_set_integer(m->fmu, reference, (int)m->plant->fidelity, error)
                : status;
 }
 

@@ -191,7 +191,7 @@ static gm_status restart(gm_transient *tr, double work, gm_error *error)
 
 static gm_status enter_piece(gm_transient *tr, gm_error *error)
 {
-    gm_transient_piece piece = {.end = INFINITY};
+    gm_transient_piece piece = {.end = (double)INFINITY};
     const gm_transient_system *s = &tr->system;
     gm_status status = s->enter(s->user, tr->t, tr->x, &piece, error);
     if (status != GM_OK)

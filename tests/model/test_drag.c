@@ -49,7 +49,7 @@ static void petroff_gaps(void **state)
 }
 
 static const gm_plates plates = {
-    .n = 8, .r_i = 45e-3, .r_o = 60e-3, .h = 0.15e-3, .feed = INFINITY};
+    .n = 8, .r_i = 45e-3, .r_o = 60e-3, .h = 0.15e-3, .feed = (double)INFINITY};
 static const gm_oil fluid = {.eta = 8e-3, .rho = 800.};
 
 static void full_films_of_a_clutch(void **state)
