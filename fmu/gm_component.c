@@ -43,6 +43,8 @@ void gm_component_reset(const gm_reduced_map *map, gm_component *c)
         gm_real torque = map->path[p].sync_torque;
         c->value[GM_PATH_SYNC_TORQUE][p].real =
             torque < GM_INFINITE ? torque : GM_INFINITE;
+        if (!gm_reduced_has_neutral(map, p))
+            c->value[GM_PATH_GEAR][p].integer = map->path[p].gears[0].number;
     }
 }
 

@@ -178,13 +178,19 @@ static void write_enumerations(xml *x)
     gm_xml_end(x);
 }
 
-/* Least and greatest gear that can be commanded: neutral is always there. */
+/* The gear at the start: neutral, or the only gear of a path that has no neutral. */
+static int first_gear(const gm_map *map, int p)
+{
+    return gm_map_has_neutral(map, p) ? GM_NEUTRAL : map->paths[p].gears[0].number;
+}
+
+/* Least and greatest gear that can be commanded. */
 static void write_gear_types(xml *x)
 {
     for (int p = 0; p < x->map->n_paths; p++) {
         const gm_map_path *path = &x->map->paths[p];
         char name[32];
-        int least = 0, greatest = 0;
+        int least = first_gear(x->map, p), greatest = least;
         for (int g = 0; g < path->n_gears; g++) {
             least = path->gears[g].number < least ? path->gears[g].number : least;
             greatest =
@@ -323,7 +329,9 @@ static void write_type(xml *x, scalar s, const variable *v)
         gm_xml_start(x, "Enumeration");
         gm_xml_text(x, "declaredType", v->type == TYPE_STATE ? "PathState" : "Fidelity");
     }
-    if (has_start(v))
+    if (s.id == VARIABLE_PATH_GEAR)
+        gm_xml_integer(x, "start", first_gear(x->map, s.path));
+    else if (has_start(v))
         gm_xml_integer(x, "start", (long)v->start);
     gm_xml_end(x);
 }

@@ -145,7 +145,8 @@ static void data1(writer *w, const char *name, const meaning *m, const gm_table1
 static void data2(writer *w, const char *name, const meaning *m, const gm_table2 *t)
 {
     const gm_axis *axis[] = {&t->x, &t->y};
-    write_axes(w, name, m, 2, axis, t->value);
+    if (t->value)
+        write_axes(w, name, m, 2, axis, t->value);
 }
 
 static void data3(writer *w, const char *name, const meaning *m, const gm_table3 *t)
@@ -174,6 +175,10 @@ static void struct1(const writer *w, const gm_table1 *t)
 
 static void struct2(const writer *w, const gm_table2 *t)
 {
+    if (!t->value) {
+        gm_buffer_text(w->text, "{.value = 0}");
+        return;
+    }
     gm_buffer_text(w->text, "{");
     write_axis(w, 'x', &t->x);
     write_axis(w, 'y', &t->y);
@@ -279,6 +284,8 @@ static void gear_structs(const writer *w, int p)
         gm_buffer_text(w->text, "    {.number = %d, .ratio = ", path->gears[g].number);
         gm_buffer_number(w->text, path->gears[g].ratio);
         compliance_fields(w, &path->gears[g]);
+        gm_buffer_text(w->text, ", .inertia_extra = ");
+        gm_buffer_number(w->text, path->gears[g].inertia_extra);
         gm_buffer_text(w->text, ", .load_loss = {\n");
         for (int d = 0; d < 2; d++) {
             gm_buffer_text(w->text, "        [%s] = ", direction_index[d]);

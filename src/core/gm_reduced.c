@@ -27,7 +27,7 @@ void gm_reduced_default_params(const gm_reduced_map *map, gm_reduced_params *par
 int gm_reduced_find_gear(const gm_reduced_map *map, int p, int number)
 {
     if (number == GM_NEUTRAL) {
-        return -1;
+        return gm_reduced_has_neutral(map, p) ? -1 : -2;
     }
     for (int i = 0; i < map->path[p].n_gears; i++) {
         if (map->path[p].gears[i].number == number) {
@@ -35,6 +35,11 @@ int gm_reduced_find_gear(const gm_reduced_map *map, int p, int number)
         }
     }
     return -2;
+}
+
+int gm_reduced_has_neutral(const gm_reduced_map *map, int p)
+{
+    return map->path[p].drag[0][0].value != NULL;
 }
 
 int gm_reduced_configuration(const gm_reduced_map *map, const gm_reduced_state *state)
@@ -105,19 +110,6 @@ static int refusal(int p)
     return p == 0 ? GM_FLAG_GEAR_REFUSED_0 : GM_FLAG_GEAR_REFUSED_1;
 }
 
-/* What an elastic path stores is lost when its gear leaves. */
-static void release(const gm_reduced_map *map, const gm_reduced_params *params, int p,
-                    gm_motion *s)
-{
-    gm_path_state *path = &s->path[p];
-    if (path->mode == GM_PATH_ENGAGED) {
-        const gm_gear *gear = gm_motion_gear(map, s, p);
-        s->loss_energy +=
-            gm_is_elastic(params, gear) ? gm_spring_energy(gear, path->twist) : 0;
-        path->twist = 0;
-    }
-}
-
 int gm_command_gear(const gm_reduced_map *map, const gm_reduced_params *params, int p,
                     int number, gm_motion *s)
 {
@@ -130,7 +122,9 @@ int gm_command_gear(const gm_reduced_map *map, const gm_reduced_params *params, 
     if (gear == -2) {
         return refusal(p);
     }
-    release(map, params, p, s);
+    if (path->mode == GM_PATH_ENGAGED) {
+        gm_release(map, params, p, s);
+    }
     path->gear = gear;
     path->mode = gear < 0 ? GM_PATH_NEUTRAL : GM_PATH_SYNCHRONISING;
     return 0;
@@ -164,10 +158,11 @@ int gm_reduced_start(const gm_reduced_map *map, const gm_reduced_inputs *inputs,
         path->w = w[p];
         if (gear == -2) {
             flags |= refusal(p);
-        } else if (gear >= 0) {
-            path->gear = gear;
+        }
+        path->gear = gear >= 0 ? gear : gm_reduced_has_neutral(map, p) ? -1 : 0;
+        if (path->gear >= 0) {
             path->mode = GM_PATH_ENGAGED;
-            path->w = map->path[p].gears[gear].ratio * w_o;
+            path->w = gm_motion_gear(map, &s, p)->ratio * w_o;
         }
     }
     if (!gm_inputs_are_finite(map, inputs) || !gm_motion_is_finite(map, &s)) {

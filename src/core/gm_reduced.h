@@ -13,7 +13,7 @@
  *   tau_m,p = tau_p + sum_N C(w_n - w_p) - J_p r_p a          sigma_p = sgn(r_p) sigma
  *   J_n dw_n/dt = tau_n - N_n(w_n, w_o) - C(w_n - w_q) - T_c,n
  *   T_c,n in capacity Sgn(w_n - r_g w_o)                      while synchronising to g
- *   J_s = J_out + sum_E r_p^2 J_p
+ *   J_s = J_out + sum_E (r_p^2 J_p + J_g)
  *
  * When both paths are in neutral, C acts between the two of them.
  *
@@ -27,6 +27,10 @@
  *
  * with pin_p(|r_p w_o|) the part of P_s that brakes the input side: while the twist rests
  * both fidelities lose the same.
+ *
+ * J_g, of gear g, is zero but for planetary gearsets, where parts turn in some gears
+ * only. When a gear comes or goes, they are taken along from rest or left behind at rest:
+ * one impulse, which conserves the momentum of what stays in motion and loses energy.
  *
  * Time stepping: implicit in the signs (exact stiction, no creep), tables and their
  * speed gradients at the middle of the step, angles by the trapezoid rule; so the energy
@@ -55,6 +59,8 @@ enum { GM_FORWARD = 0, GM_BACKWARD = 1 };
 typedef struct gm_gear {
     int number;             /* -1 reverse, 1..n; never 0 */
     gm_real ratio;          /* r = w_path / w_output, signed */
+    gm_real inertia_extra;  /* J_g: what turns with the output in this gear beyond J_out
+                               and r^2 J_p [kg.m2], may be < 0; J_out + J_g > 0 */
     gm_table2 load_loss[2]; /* D by direction of rotation of the path: x |w_p| [rad/s],
                                y torque in the direction of rotation [N.m] (> 0 driving)
                                -> loss torque at the path's flange [N.m] */
@@ -81,7 +87,8 @@ typedef struct gm_drag_line {
 
 #define GM_LINE_WIDTH 1.0 /* rad/s, the ramp is from -1 to +1 around the line */
 
-/** One path: an input flange and what is behind it. */
+/** One path: an input flange and what is behind it. A path without drag tables
+ *  (drag[0][0].value = NULL) has no neutral: it has one gear and is always in it. */
 typedef struct gm_path {
     gm_real inertia;     /* J_p: turns with the input flange in neutral [kg.m2] */
     gm_real sync_torque; /* default cone capacity at the input flange [N.m] */
@@ -229,6 +236,9 @@ void gm_reduced_default_params(const gm_reduced_map *map, gm_reduced_params *par
 
 /** Index of gear number in path p: -1 for neutral, -2 when the path has no such gear. */
 int gm_reduced_find_gear(const gm_reduced_map *map, int p, int number);
+
+/** Whether path p has a neutral: 1, or 0 where it is always in its one gear. */
+int gm_reduced_has_neutral(const gm_reduced_map *map, int p);
 
 /** Index into map->configurations of the gears engaged in *state (a path that
  *  synchronises counts as neutral). */

@@ -61,7 +61,7 @@ static void output_row(const gm_drive *d, const gm_solution *s, matrix *m)
 {
     const gm_terms *t = &s->terms;
     const gm_real mean = d->mean;
-    gm_real slope = t->out_o, inertia = d->map->inertia_output, *k = m->k[GM_OUT];
+    gm_real slope = t->out_o, inertia = d->inertia_own, *k = m->k[GM_OUT];
     k[0] = k[1] = 0;
     m->least[GM_OUT] = PIVOT_LIMIT * d->inertia[GM_OUT];
     for (int p = 0; p < d->n_paths; p++) {

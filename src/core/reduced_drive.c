@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
  * What drives the shafts of the reduced gearset over one sub-step: configuration, ratios,
- * inertias (J_s = J_out + sum_E r^2 J_p; elastic paths keep theirs), flange and cone
- * torques; and the power of the loss torques that the solution found.
+ * inertias (J_s = J_out + sum_E (r^2 J_p + J_g); elastic paths keep their J_p), flange
+ * and cone torques; and the power of the loss torques that the solution found.
  *
  * Mean speeds are those of the middle of a sub-step, h/2 into it, unless it is longer
  * than 2/omega, with omega^2 >= that of the fastest vibration: then they are read at h
@@ -41,9 +41,13 @@ gm_real gm_motion_inertia(const gm_reduced_map *map, const gm_reduced_params *pa
 {
     gm_real sum = map->inertia_output;
     for (int p = 0; p < map->n_paths; p++) {
-        if (!gm_has_own_speed(map, params, s, p)) {
-            const gm_real r = gm_motion_gear(map, s, p)->ratio;
-            sum += r * r * map->path[p].inertia;
+        if (s->path[p].mode != GM_PATH_ENGAGED) {
+            continue;
+        }
+        const gm_gear *gear = gm_motion_gear(map, s, p);
+        sum += gear->inertia_extra;
+        if (!gm_is_elastic(params, gear)) {
+            sum += gear->ratio * gear->ratio * map->path[p].inertia;
         }
     }
     return sum;
@@ -77,6 +81,8 @@ static void drive_path(const gm_reduced_map *map, const gm_reduced_params *param
                      ? gm_cone_torque(params, p, path->w - ratio * s->w_o)
                      : 0;
     d->index = d->index * (map->path[p].n_gears + 1) + (engaged ? path->gear + 1 : 0);
+    d->inertia_own += engaged ? gear->inertia_extra : 0;
+    d->inertia[GM_OUT] += engaged ? gear->inertia_extra : 0;
     d->inertia[GM_OUT] += d->own[p] ? 0 : ratio * ratio * inertia;
 }
 
@@ -96,7 +102,7 @@ void gm_make_drive(const gm_reduced_map *map, const gm_reduced_params *params,
     d->scale = params->loss_scale;
     d->brake = s->brake;
     d->index = 0;
-    d->inertia[GM_OUT] = map->inertia_output;
+    d->inertia[GM_OUT] = d->inertia_own = map->inertia_output;
     drive_path(map, params, s, 0, d);
     if (map->n_paths == 2) {
         drive_path(map, params, s, 1, d);

@@ -105,7 +105,7 @@ static void change_accelerations(const gm_drive *d, const gm_solution *s, int st
                                  gm_real tau_o, change *c)
 {
     const gm_terms *t = &s->terms;
-    gm_real inertia = d->map->inertia_output, sum = tau_o - c->terms.out;
+    gm_real inertia = d->inertia_own, sum = tau_o - c->terms.out;
     for (int p = 0; p < d->n_paths; p++) {
         const losses *to = &c->terms;
         const gm_real r = d->ratio[p];

@@ -83,6 +83,7 @@ typedef struct gm_drive {
     gm_real ratio[GM_MAX_PATHS];       /* of that gear, else 0 */
     gm_real cone[GM_MAX_PATHS];        /* T_c, signed [N.m] */
     gm_real inertia[GM_SHAFTS];        /* J_p; J_s of the configuration at the output */
+    gm_real inertia_own;               /* J_s without the engaged paths' r^2 J_p */
     gm_real w[GM_SHAFTS];              /* at the start of the sub-step */
     gm_real tau[GM_SHAFTS];            /* flange torques, mean of the sub-step */
     gm_real brake;                     /* the last step's, a first guess [N.m] */
@@ -229,6 +230,11 @@ int gm_command_gear(const gm_reduced_map *map, const gm_reduced_params *params, 
 /** Shaft k stands; what kinetic energy it had goes into the losses. */
 void gm_bring_to_rest(const gm_reduced_map *map, const gm_reduced_params *params, int k,
                       gm_motion *s);
+
+/** Path p, which is engaged, lets go of its gear: it is in neutral from here on. What an
+ *  elastic path stores is lost; the gear's own inertia J_g changes speeds and energy. */
+void gm_release(const gm_reduced_map *map, const gm_reduced_params *params, int p,
+                gm_motion *s);
 
 /** Path p and the output meet in one impulse that conserves momentum; the kinetic energy
  *  that goes is lost. The path is engaged from here on. */

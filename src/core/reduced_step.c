@@ -161,19 +161,60 @@ static void turn_with_output(const gm_reduced_map *map, const gm_reduced_params 
     }
 }
 
+/* Inertia j_new joins j, which turns with the output, from rest; returns their sum. */
+static gm_real take_along(gm_real j, gm_real j_new, gm_motion *s)
+{
+    const gm_real j_sum = j + j_new;
+    s->loss_energy += j * j_new / j_sum * s->w_o * s->w_o / 2;
+    s->w_o *= j / j_sum;
+    return j_sum;
+}
+
+/* Part j_part of what turns with the output is left behind at rest. */
+static void leave_behind(gm_real j_part, gm_motion *s)
+{
+    s->loss_energy += j_part * s->w_o * s->w_o / 2;
+}
+
+void gm_release(const gm_reduced_map *map, const gm_reduced_params *params, int p,
+                gm_motion *s)
+{
+    gm_path_state *path = &s->path[p];
+    const gm_gear *gear = gm_motion_gear(map, s, p);
+    const gm_real extra = gear->inertia_extra;
+    s->loss_energy +=
+        gm_is_elastic(params, gear) ? gm_spring_energy(gear, path->twist) : 0;
+    path->twist = 0;
+    path->mode = GM_PATH_NEUTRAL;
+    if (extra > 0) {
+        leave_behind(extra, s);
+    } else if (extra < 0) {
+        take_along(gm_motion_inertia(map, params, s) + extra, -extra, s);
+        turn_with_output(map, params, s);
+    }
+}
+
 /* Path p and the output meet in one impulse that conserves momentum; what kinetic energy
  * goes is lost. The path is engaged from here on. */
 void gm_engage(const gm_reduced_map *map, const gm_reduced_params *params, int p,
                gm_motion *s)
 {
     gm_path_state *path = &s->path[p];
-    const gm_real r = map->path[p].gears[path->gear].ratio;
-    const gm_real j_p = map->path[p].inertia, j_o = gm_motion_inertia(map, params, s);
-    const gm_real slip = path->w - r * s->w_o;
+    const gm_gear *gear = gm_motion_gear(map, s, p);
+    const gm_real r = gear->ratio, extra = gear->inertia_extra;
+    const gm_real j_p = map->path[p].inertia;
+    gm_real j_o = gm_motion_inertia(map, params, s);
+    if (extra < 0) {
+        leave_behind(-extra, s);
+        j_o += extra;
+    }
+    const gm_real slip = path->w - r * s->w_o, j_sum = j_o + r * r * j_p;
     if (slip != 0) {
-        const gm_real j_sum = j_o + r * r * j_p;
         s->loss_energy += j_p * j_o / j_sum * slip * slip / 2;
         s->w_o += r * j_p * slip / j_sum;
+    }
+    if (extra > 0) {
+        take_along(j_sum, extra, s);
     }
     path->mode = GM_PATH_ENGAGED;
     path->twist = 0;

@@ -73,8 +73,11 @@ typedef struct gm_map_gear {
                            known, rigid */
     double damping;   /* N.m.s/rad */
     double lash;      /* rad, from flank to flank */
+    double inertia_extra; /* J_g: turns with the output in this gear beyond J_out and
+                             r^2 J_p, kg.m2; 0 for layshafts */
 } gm_map_gear;
 
+/** A path without drag tables has no neutral: see gm_map_has_neutral. */
 typedef struct gm_map_path {
     char name[16];
     double inertia;     /* J_p, kg.m2 */
@@ -117,6 +120,10 @@ GM_NODISCARD gm_status gm_map_add_table(gm_map *map, const gm_table_key *key, in
 
 /** The table of a key, or NULL. Valid until the next gm_map_add_table. */
 const gm_map_table *gm_map_find(const gm_map *map, const gm_table_key *key);
+
+/** Whether path p has a neutral. It has none where it has one gear and the map no drag
+ *  table (N, R) of it: gearsets that are always in gear. */
+int gm_map_has_neutral(const gm_map *map, int p);
 
 /** Number of values of a table, and of one of its rows (first axis fixed). */
 int gm_map_table_size(const gm_map_table *table);

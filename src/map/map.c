@@ -137,6 +137,16 @@ int gm_map_row_size(const gm_map_table *table)
     return table->n[1] * table->n[2];
 }
 
+int gm_map_has_neutral(const gm_map *map, int p)
+{
+    int found = map->paths[p].n_gears != 1;
+    for (int t = 0; t < map->n_tables; t++) {
+        const gm_table_key *key = &map->tables[t].key;
+        found |= (key->symbol == GM_DRAG || key->symbol == GM_REACTION) && key->path == p;
+    }
+    return found;
+}
+
 int gm_map_table_size(const gm_map_table *table)
 {
     return table->n[0] * gm_map_row_size(table);

@@ -84,7 +84,7 @@ static gm_status check_compliance(const gm_map_path *path, const gm_map_gear *ge
                    path->name, gear->number, gear->stiffness, gear->damping, gear->lash);
 }
 
-static gm_status check_path(const gm_map_path *path, gm_error *error)
+static gm_status check_path(const gm_map *map, const gm_map_path *path, gm_error *error)
 {
     if (!(path->inertia > 0.0) || !isfinite(path->inertia))
         return gm_fail(error, GM_ERR_FORMAT,
@@ -101,6 +101,12 @@ static gm_status check_path(const gm_map_path *path, gm_error *error)
                            "path %s: gear %d has the ratio %g; it must be a number that "
                            "is not zero",
                            path->name, gear->number, gear->ratio);
+        if (!isfinite(gear->inertia_extra) ||
+            !(map->inertia_output + gear->inertia_extra > 0.0))
+            return gm_fail(error, GM_ERR_FORMAT,
+                           "path %s: gear %d adds the inertia %g kg.m2; with that of the "
+                           "output the sum must be positive",
+                           path->name, gear->number, gear->inertia_extra);
         if (isinf(gear->ratio_given))
             return gm_fail(error, GM_ERR_FORMAT, "path %s: gear %d: given ratio %g",
                            path->name, gear->number, gear->ratio_given);
@@ -139,7 +145,7 @@ gm_status gm_map_check(const gm_map *map, gm_error *error)
         return gm_fail(error, GM_ERR_FORMAT,
                        "largest speed, torque or oil temperature is not a number");
     for (int p = 0; status == GM_OK && p < map->n_paths; p++)
-        status = check_path(&map->paths[p], error);
+        status = check_path(map, &map->paths[p], error);
     for (int t = 0; status == GM_OK && t < map->n_tables; t++)
         status = check_values(map, &map->tables[t], error);
     return status;

@@ -28,7 +28,8 @@ static bool column_gear(sqlite3_stmt *rows, int *path, gm_map_gear *gear)
            (!given || gm_column_real(rows, 3, &gear->ratio_given)) &&
            gm_column_real(rows, 4, &gear->stiffness) &&
            gm_column_real(rows, 5, &gear->damping) &&
-           gm_column_real(rows, 6, &gear->lash);
+           gm_column_real(rows, 6, &gear->lash) &&
+           gm_column_real(rows, 7, &gear->inertia_extra);
 }
 
 static gm_status read_gears(const gm_db *db, gm_map *map, gm_error *error)
@@ -38,8 +39,8 @@ static gm_status read_gears(const gm_db *db, gm_map *map, gm_error *error)
     int filled[GM_MAX_PATHS] = {0};
     gm_status status =
         gm_db_prepare(db,
-                      "SELECT path, gear, ratio, ratio_given, stiffness, damping, lash "
-                      "FROM gear ORDER BY path, gear",
+                      "SELECT path, gear, ratio, ratio_given, stiffness, damping, lash, "
+                      "inertia_extra FROM gear ORDER BY path, gear",
                       &rows, error);
     if (status == GM_OK)
         status = gm_db_next(db, rows, &row, error);

@@ -61,6 +61,7 @@ static void add_path(gm_sha256 *sum, const gm_map_path *path)
     for (int g = 0; g < path->n_gears; g++) {
         gm_sha256_int(sum, path->gears[g].number);
         gm_sha256_double(sum, path->gears[g].ratio);
+        gm_sha256_double(sum, path->gears[g].inertia_extra);
         gm_sha256_double(sum, given_or_zero(path->gears[g].ratio_given));
         gm_sha256_double(sum, path->gears[g].stiffness);
         gm_sha256_double(sum, path->gears[g].damping);

@@ -41,6 +41,7 @@ static const schema_table tables[] = {
              "  stiffness REAL NOT NULL " IS_REAL("stiffness") ",\n"
              "  damping REAL NOT NULL " IS_REAL("damping") ",\n"
              "  lash REAL NOT NULL " IS_REAL("lash") ",\n"
+             "  inertia_extra REAL NOT NULL " IS_REAL("inertia_extra") ",\n"
              "  PRIMARY KEY (path, gear)\n"
              ") WITHOUT ROWID"},
     {"axis", "CREATE TABLE axis (\n"

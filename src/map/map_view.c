@@ -72,6 +72,7 @@ static gm_status build_gear(const builder *b, int p, int g)
     gear->stiffness = from->stiffness;
     gear->damping = from->damping;
     gear->lash = from->lash;
+    gear->inertia_extra = from->inertia_extra;
     key.path = p;
     key.gear[p] = from->number;
     for (int d = 0; d < 2; d++) {
@@ -183,8 +184,9 @@ static gm_status build_path(const builder *b, int p)
     path->gears = b->view->gears[p];
     for (int g = 0; status == GM_OK && g < from->n_gears; g++)
         status = build_gear(b, p, g);
-    if (status == GM_OK)
-        status = build_drag(b, p, GM_DRAG, path->drag);
+    if (status != GM_OK || !gm_map_has_neutral(b->map, p))
+        return status;
+    status = build_drag(b, p, GM_DRAG, path->drag);
     if (status == GM_OK)
         status = build_drag(b, p, GM_REACTION, path->reaction);
     if (status == GM_OK)
@@ -206,6 +208,15 @@ static gm_table_key configuration_key(const gm_map *map, const gm_configuration 
     for (int p = 0; p < map->n_paths; p++)
         key.gear[p] = gear_number(&map->paths[p], c->gear[p]);
     return key;
+}
+
+/* One path at least would be in a neutral that it does not have. */
+static int is_impossible(const gm_map *map, const gm_configuration *c)
+{
+    int impossible = 0;
+    for (int p = 0; p < map->n_paths; p++)
+        impossible |= c->gear[p] < 0 && !gm_map_has_neutral(map, p);
+    return impossible;
 }
 
 static gm_status build_configuration(const builder *b, gm_configuration *c)
@@ -238,7 +249,8 @@ static gm_status build_configurations(const builder *b)
         gm_configuration *c = &b->view->configurations[i];
         c->gear[0] = i / n1 - 1;
         c->gear[1] = i % n1 - 1;
-        status = build_configuration(b, c);
+        if (!is_impossible(map, c))
+            status = build_configuration(b, c);
     }
     b->view->reduced.n_configurations = n;
     b->view->reduced.configurations = b->view->configurations;

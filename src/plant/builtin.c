@@ -119,6 +119,7 @@ static gm_status fill_path(const gm_gearset *gearset, int p, gm_plant_path *path
         gears[i] = (gm_plant_gear){part->gears[i].number, part->gears[i].ratio};
     *path = (gm_plant_path){.name = part->id.name,
                             .n_gears = part->n_gears,
+                            .always_engaged = !part->has_neutral,
                             .gears = gears,
                             .sync_torque = gm_gearset_sync_torque(gearset, p)};
     return isnan(path->sync_torque) ? gm_fail(error, GM_ERR_MEMORY, "out of memory")

@@ -26,6 +26,7 @@ typedef struct gm_plant_path {
     const char *name; /* "odd", "even" or "input" */
     int n_gears;
     const gm_plant_gear *gears; /* ascending by number */
+    int always_engaged;         /* 1: it has one gear and no neutral */
     double
         sync_torque; /* cone capacity at the input flange, N.m (smallest of its gears) */
 } gm_plant_path;

@@ -52,24 +52,28 @@ static gm_status identify_gear(const gm_plant *plant, gm_map *map, int p, int g,
 {
     const gm_plant_gear *from = &plant->info.path[p].gears[g];
     gm_map_gear *to = &map->paths[p].gears[g];
-    int gear[GM_MAX_INPUT_PATHS] = {GM_NEUTRAL, GM_NEUTRAL};
+    int gear[GM_MAX_INPUT_PATHS];
     gm_kinematics kinematics;
-    gear[p] = from->number;
+    for (int q = 0; q < GM_MAX_INPUT_PATHS; q++)
+        gear[q] = q == p ? from->number : gm_sweep_rest_gear(plant, q);
     gm_status status = plant->is->kinematics(plant->self, gear, &kinematics, error);
     if (status != GM_OK)
         return status;
     to->number = from->number;
     to->ratio = kinematics.ratio[p];
     to->ratio_given = from->ratio_given;
+    to->inertia_extra = gm_extra_inertia(&kinematics);
     status = identify_compliance(plant, p, to, error);
     return status == GM_OK ? check_ratio(&map->paths[p], to, deviation, error) : status;
 }
 
 static gm_status identify_inertias(const gm_plant *plant, gm_map *map, gm_error *error)
 {
-    const int neutral[GM_MAX_INPUT_PATHS] = {GM_NEUTRAL, GM_NEUTRAL};
+    int rest[GM_MAX_INPUT_PATHS];
     gm_kinematics kinematics;
-    gm_status status = plant->is->kinematics(plant->self, neutral, &kinematics, error);
+    for (int p = 0; p < GM_MAX_INPUT_PATHS; p++)
+        rest[p] = gm_sweep_rest_gear(plant, p);
+    gm_status status = plant->is->kinematics(plant->self, rest, &kinematics, error);
     if (status != GM_OK)
         return status;
     map->inertia_output = kinematics.inertia_output;

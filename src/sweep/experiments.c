@@ -171,7 +171,8 @@ static gm_status load_row(row *r)
     double parasitic = value[zero];
     for (int j = 0; j < n; j++)
         value[j] = (value[j] - parasitic) / fabs(ratio);
-    *row_values(r->plan->map, r->job->companion, r->job->row) = parasitic;
+    if (r->job->companion >= 0)
+        *row_values(r->plan->map, r->job->companion, r->job->row) = parasitic;
     return GM_OK;
 }
 
@@ -286,6 +287,8 @@ gm_status gm_experiment_row(const gm_sweep_plan *plan, const gm_job *job,
         [GM_JOB_BOTH] = both_row,
     };
     row r = {.plan = plan, .job = job, .solver = solver, .error = error};
+    for (int p = 0; p < plan->map->n_paths; p++)
+        r.point.gear[p] = gm_sweep_rest_gear(plan->plant, p);
     if (job->kind != GM_JOB_REFERENCE)
         r.table = &plan->map->tables[job->table];
     gm_steady_solver_restart(solver);

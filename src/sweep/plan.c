@@ -39,6 +39,22 @@ typedef struct builder {
     double first_speed; /* first node above zero of the path speed axes */
 } builder;
 
+int gm_sweep_rest_gear(const gm_plant *plant, int p)
+{
+    const gm_plant_path *path = &plant->info.path[p];
+    return p < plant->info.n_paths && path->always_engaged ? path->gears[0].number
+                                                           : GM_NEUTRAL;
+}
+
+/* Paths that have no neutral. */
+static int always_engaged(const gm_plant *plant)
+{
+    int n = 0;
+    for (int p = 0; p < plant->info.n_paths; p++)
+        n += plant->info.path[p].always_engaged;
+    return n;
+}
+
 gm_table_key gm_sweep_load_key(int path, int gear, int direction)
 {
     gm_table_key key = gm_table_key_of(GM_LOAD_LOSS);
@@ -269,16 +285,18 @@ static gm_status plan_parasitic(builder *b, const int *gear)
     return status;
 }
 
-/* One path in gear, the other in neutral: D, and P at the same speeds. */
+/* One path in gear, the other at rest: D, and P at the same speeds. Two paths that are
+   always engaged have one P. */
 static gm_status plan_load(builder *b, int p, const gm_map_gear *of, int direction)
 {
-    int gear[GM_MAX_PATHS] = {GM_NEUTRAL, GM_NEUTRAL};
-    gear[p] = of->number;
+    int gear[GM_MAX_PATHS];
+    for (int q = 0; q < GM_MAX_PATHS; q++)
+        gear[q] = q == p ? of->number : gm_sweep_rest_gear(b->plant, q);
     int output_direction = of->ratio < 0 ? !direction : direction;
     gm_table_key load = gm_sweep_load_key(p, of->number, direction);
     gm_table_key parasitic =
         gm_sweep_configuration_key(GM_PARASITIC, b->map, gear, output_direction);
-    gm_job job = {GM_JOB_LOAD, 2, 0, 0, 0, 0};
+    gm_job job = {GM_JOB_LOAD, 2, 0, -1, 0, 0};
     gm_status status = speed_axis(b, p, of->number, &b->axis[0]);
     if (status == GM_OK)
         status = torque_axis(b, p, of->number, &b->axis[1]);
@@ -286,7 +304,7 @@ static gm_status plan_load(builder *b, int p, const gm_map_gear *of, int directi
         status = add_table(b, &load, 2, &job.table);
     job.points = b->axis[1].n;
     gm_nodes_scale(1.0 / fabs(of->ratio), &b->axis[0]);
-    if (status == GM_OK)
+    if (status == GM_OK && !gm_map_find(b->map, &parasitic))
         status = add_table(b, &parasitic, 1, &job.companion);
     return status != GM_OK ? status : add_jobs(b, job, b->axis[0].n);
 }
@@ -326,10 +344,11 @@ static gm_status plan_both(builder *b, const int *gear, int direction)
 static gm_status plan_path(builder *b, int p)
 {
     const gm_map_path *path = &b->map->paths[p];
-    gm_status status = plan_lines(b, p);
+    int free = !b->plant->info.path[p].always_engaged;
+    gm_status status = free ? plan_lines(b, p) : GM_OK;
     for (int i = 0; i < 2 * path->n_gears && status == GM_OK; i++)
         status = plan_load(b, p, &path->gears[i / 2], i % 2);
-    for (int i = 0; i < 4 && status == GM_OK; i++)
+    for (int i = 0; free && i < 4 && status == GM_OK; i++)
         status = plan_drag(b, p, i / 2, i % 2);
     return status;
 }
@@ -341,7 +360,7 @@ static gm_status plan_doubles(builder *b)
     for (int i = 0; i < n_0 * n_1 && status == GM_OK; i++) {
         int gear[GM_MAX_PATHS] = {b->map->paths[0].gears[i / n_1].number,
                                   b->map->paths[1].gears[i % n_1].number};
-        status = plan_parasitic(b, gear);
+        status = always_engaged(b->plant) ? GM_OK : plan_parasitic(b, gear);
         for (int d = 0; d < 2 && status == GM_OK; d++)
             status = plan_both(b, gear, d);
     }
@@ -357,11 +376,12 @@ static gm_status plan_all(builder *b)
         return status;
     b->first_speed = b->axis[0].x[1];
     free_axes(b);
-    if (two && b->plant->info.coupled)
+    int fixed = always_engaged(b->plant);
+    if (two && b->plant->info.coupled && fixed == 0)
         status = plan_coupling(b);
-    if (status == GM_OK)
+    if (status == GM_OK && fixed < b->map->n_paths)
         status = plan_reference(b);
-    if (status == GM_OK)
+    if (status == GM_OK && fixed == 0)
         status = plan_parasitic(b, neutral);
     for (int p = 0; p < b->map->n_paths && status == GM_OK; p++)
         status = plan_path(b, p);

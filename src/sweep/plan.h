@@ -61,6 +61,9 @@ GM_NODISCARD gm_status gm_sweep_plan_create(const gm_plant *plant,
                                             gm_sweep_plan **plan, gm_error *error);
 void gm_sweep_plan_destroy(gm_sweep_plan *plan);
 
+/** Gear of a path while another one is measured alone: neutral, or its only gear. */
+int gm_sweep_rest_gear(const gm_plant *plant, int p);
+
 /** Key of D. direction: of the path. */
 gm_table_key gm_sweep_load_key(int path, int gear, int direction);
 /** Key of P or X: gears are numbers (gear[1] unused with one path). */

@@ -3,6 +3,7 @@
 
 #include "base/alloc.h"
 #include "map/gm_map.h"
+#include "sweep/plan.h"
 #include "sweep/verify_points.h"
 
 #include <math.h>
@@ -39,8 +40,10 @@ static gm_status find_ratios(run *r)
     double smallest = HUGE_VAL;
     for (int p = 0; p < info->n_paths; p++)
         for (int g = 0; g < info->path[p].n_gears; g++) {
-            int gear[GM_MAX_INPUT_PATHS] = {0};
+            int gear[GM_MAX_INPUT_PATHS];
             gm_kinematics kinematics;
+            for (int q = 0; q < GM_MAX_INPUT_PATHS; q++)
+                gear[q] = gm_sweep_rest_gear(r->plant, q);
             if (g >= MAX_GEARS)
                 return gm_fail(r->error, GM_ERR_ARGUMENT, "more than %d gears on a path",
                                MAX_GEARS);
@@ -90,9 +93,14 @@ static gm_status add_case(run *r, gm_verify_group group, int path, const int *ge
 
 static gm_status add_path_cases(run *r, int p)
 {
-    int gear[GM_MAX_INPUT_PATHS] = {-1, -1};
-    gm_status status = add_case(r, GM_VERIFY_DRAG, p, gear);
-    if (status == GM_OK)
+    const gm_plant_info *info = &r->plant->info;
+    int gear[GM_MAX_INPUT_PATHS] = {-1, -1}, free = !info->path[p].always_engaged;
+    gm_status status = GM_OK;
+    for (int q = 0; q < info->n_paths; q++)
+        gear[q] = info->path[q].always_engaged ? 0 : -1;
+    if (free)
+        status = add_case(r, GM_VERIFY_DRAG, p, gear);
+    if (free && status == GM_OK)
         status = add_case(r, GM_VERIFY_REACTION, p, gear);
     for (int g = 0; g < r->plant->info.path[p].n_gears && status == GM_OK; g++) {
         gear[p] = g;

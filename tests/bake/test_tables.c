@@ -69,6 +69,7 @@ static void same_path(const gm_path *a, const gm_path *b)
         for (int g = 0; g < a->n_gears; g++) {
             assert_int_equal(a->gears[g].number, b->gears[g].number);
             assert_true(a->gears[g].ratio == b->gears[g].ratio);
+            assert_true(a->gears[g].inertia_extra == b->gears[g].inertia_extra);
             same2(&a->gears[g].load_loss[d], &b->gears[g].load_loss[d]);
             assert_true(a->gears[g].stiffness == b->gears[g].stiffness);
             assert_true(a->gears[g].damping == b->gears[g].damping);

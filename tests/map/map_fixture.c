@@ -175,6 +175,7 @@ gm_map *fixture_map(const fixture_options *options)
         for (int g = 0; g < map->paths[p].n_gears; g++) {
             gm_map_gear *gear = &map->paths[p].gears[g];
             double size = 3.0 + 10.0 * fixture_random(&state);
+            gear->inertia_extra = 0.002 * g - 0.003;
             gear->ratio = gear->number < 0 ? -size : size;
             gear->ratio_given = gear->number == 3 ? (double)NAN : gear->ratio * 1.0001;
             gear->stiffness = 1e4 * (1.0 + fixture_random(&state));
@@ -224,7 +225,8 @@ static bool same_path(const gm_map_path *a, const gm_map_path *b)
                same_number(a->gears[g].ratio_given, b->gears[g].ratio_given) &&
                same_number(a->gears[g].stiffness, b->gears[g].stiffness) &&
                same_number(a->gears[g].damping, b->gears[g].damping) &&
-               same_number(a->gears[g].lash, b->gears[g].lash);
+               same_number(a->gears[g].lash, b->gears[g].lash) &&
+               same_number(a->gears[g].inertia_extra, b->gears[g].inertia_extra);
     return same;
 }
 

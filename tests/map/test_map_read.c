@@ -89,6 +89,7 @@ static void changed_content_is_refused(void **state)
         {"UPDATE meta SET value = printf('%.300c', 'x') WHERE key = 'title'", "'title'"},
         {"UPDATE gear SET ratio = ratio * 1.01 WHERE gear = 3", "content hash"},
         {"UPDATE gear SET lash = 2 * lash WHERE gear = 3", "content hash"},
+        {"UPDATE gear SET inertia_extra = 0.01 WHERE gear = 3", "content hash"},
         {"DELETE FROM gear WHERE gear = 3", "damaged"},
         {"DELETE FROM path WHERE path = 1", "damaged"},
         {"DELETE FROM path", "damaged"},

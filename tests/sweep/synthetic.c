@@ -292,10 +292,12 @@ static gm_status kinematics(const void *self, const int *gear, gm_kinematics *k,
 {
     const synthetic *s = self;
     (void)error;
-    *k = (gm_kinematics){.inertia_output = synthetic_inertia(0)};
+    *k = (gm_kinematics){.inertia_output = synthetic_inertia(0),
+                         .inertia_total = synthetic_inertia(0)};
     for (int p = 0; p < s->plant.info.n_paths; p++) {
         k->ratio[p] = synthetic_ratio(p, gear[p]);
         k->inertia[p] = synthetic_inertia(1 + p);
+        k->inertia_total += k->ratio[p] * k->ratio[p] * k->inertia[p];
     }
     return GM_OK;
 }
