@@ -58,12 +58,11 @@ static void join_locks(groups *g, const gm_path_gear *gear)
 {
     const gm_description *d = g->d;
     for (int i = 0; i < gear->n_locks; i++) {
-        const gm_lock *lock = &gear->locks[i];
-        const gm_clutch *c = &d->clutches[lock->index];
-        if (!lock->is_clutch)
-            join(g, gm_check_body(d, lock->index), d->wheels[lock->index].shaft);
-        else if (c->on != GM_HOUSING)
-            join(g, c->shaft, c->on);
+        int index = gear->locks[i].index;
+        if (!gear->locks[i].is_clutch)
+            join(g, gm_check_body(d, index), d->wheels[index].shaft);
+        else if (d->clutches[index].on != GM_HOUSING)
+            join(g, d->clutches[index].shaft, d->clutches[index].on);
     }
 }
 
