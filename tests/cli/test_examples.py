@@ -18,7 +18,8 @@ FILES = sorted((ROOT / "examples").glob("*.yaml"))
 
 
 def test_there_are_examples():
-    assert {"dct7.yaml", "dct6_wet.yaml", "mt5.yaml"} <= {file.name for file in FILES}
+    assert {"dct7.yaml", "dct6_wet.yaml", "mt5.yaml", "ev1.yaml", "at3_simpson.yaml",
+            "at4_ravigneaux.yaml"} <= {file.name for file in FILES}
 
 
 @pytest.fixture(scope="module", params=FILES, ids=lambda file: file.stem)
@@ -55,27 +56,27 @@ def test_power_flows_from_the_flange_to_the_output(example):
         flow = gear["power_flow"]
         assert flow[0] == written["paths"][path["name"]]["shaft"]
         assert flow[-1] == written["output"]
-        gears = written["paths"][path["name"]]["gears"]
-        assert gears[str(gear["number"])]["lock"] in flow
+        locked = written["paths"][path["name"]]["gears"][str(gear["number"])]["lock"]
+        for lock in locked if isinstance(locked, list) else [locked]:
+            if lock in written["gears"]:
+                assert lock in flow
 
 
-def test_inertias_are_positive_and_grow_with_the_share_of_the_output(example):
-    output = example.checked["inertia_output_kgm2"]
-    assert output > 0
+def test_a_flange_in_gear_turns_more_than_in_neutral(example):
+    assert example.checked["inertia_output_kgm2"] > 0
     for path, gear in example.gears:
-        # in gear the flange turns its own shaft and, through the ratio, the output
-        assert path["inertia_kgm2"] > 0
-        assert gear["inertia_at_input_kgm2"] > output / gear["ratio"] ** 2
+        assert gear["inertia_at_input_kgm2"] > path["inertia_kgm2"] > 0
 
 
 def test_a_gear_at_work_loses_little(example):
     """At 2000 rpm and 100 N.m 95 to 99 % of the power arrive (ZF's figure for manual
     gearsets of cars, with splash: 92 to 97 %; a pair of gears alone 99.0 to 99.8 %; here two
-    or three pairs, their bearings and little splash)."""
+    or three pairs, their bearings and little splash). A planetary set passes part of the
+    power without rolling: up to 99.3 %; direct drive has only drag."""
     for _, gear in example.gears:
         point = result_of("check", example.file, "--gear", gear["number"], "--speed", "2000",
                           "--torque", "100")["point"]
-        assert 0.95 < point["efficiency"] < 0.99
+        assert 0.95 < point["efficiency"] < (0.998 if gear["ratio"] == 1 else 0.993)
         assert point["output_speed_rpm"] == pytest.approx(2000 / gear["ratio"])
 
 
