@@ -185,11 +185,14 @@ static void powers(void *user, double t, const double *x, gm_transient_powers *p
         d->is->view(d->motion, &d->input, x, &view);
     *powers = (gm_transient_powers){
         .loss = view.loss_power, .stored = view.stored_energy, .lost = view.jump_loss};
+    double in = 0.0, out = 0.0;
     for (int f = 0; f < d->n_flanges; f++) {
         double power = d->input.torque[f] * view.speed[f];
-        powers->in += power;
-        powers->through += 0.5 * fabs(power);
+        in += fmax(power, 0.0);
+        out += fmax(-power, 0.0);
     }
+    powers->in = in - out;
+    powers->through = fmax(in, out);
 }
 
 /* Stored energy at the present x, for the work of an impulse. */

@@ -30,7 +30,7 @@ typedef struct gm_transient_piece {
 typedef struct gm_transient_powers {
     double in; /* W, net power of all that acts from outside */
     double
-        through;   /* W >= 0, how much passes: half the sum of |power| over the flanges */
+        through;   /* W >= 0, how much passes: the larger of what flows in and out */
     double loss;   /* W >= 0 */
     double stored; /* J */
     double lost;   /* J >= 0, given up in jumps of x since the start */
