@@ -5,28 +5,19 @@ anything to complain about."""
 import csv
 import json
 import os
-import re
 import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import START
+from conftest import H, ROWS, START, complaints
 
 import drive
 
 HERE = Path(__file__).parent
 # relative to the largest value of the variable, or to 1
 TOLERANCE = 1e-12
-COMPLAINT = re.compile(r"warn|error|fail|invalid|panic", re.I)
-# libcosim says so of every FMU that has enumerations
-EXCUSED = re.compile(r"FMI 2\.0 Enumeration variable type not supported")
-
-
-def complaints(said):
-    return [line for line in said.splitlines()
-            if COMPLAINT.search(line) and not EXCUSED.search(line)]
 
 
 def assert_same(result, reference, outputs):
@@ -55,8 +46,8 @@ def run_host(script, example, outputs, folder):
     while it leaves; so what counts is the complete result, not the exit code."""
     job, result = folder / "job.json", folder / "result.json"
     job.write_text(json.dumps({
-        "fmu": example.fmu, "step": drive.NANOSECONDS, "start": START,
-        "rows": example.rows[:drive.STEPS], "outputs": outputs}))
+        "fmu": example.fmu, "step": drive.Fine.NANOSECONDS, "start": START,
+        "rows": example.rows[:ROWS], "outputs": outputs}))
     done = subprocess.run([sys.executable, HERE / script, job, result], capture_output=True,
                           text=True, timeout=300, cwd=folder)
     said = done.stdout + done.stderr
@@ -83,7 +74,7 @@ def write_inputs(rows, file):
         writer.writerow(["time", *names])
         for k, row in enumerate(rows):
             after = rows[min(k + 1, len(rows) - 1)]
-            writer.writerow([k * drive.H] + [(after if n.endswith(".gear") else row)[n]
+            writer.writerow([k * H] + [(after if n.endswith(".gear") else row)[n]
                                              for n in names])
 
 
@@ -93,8 +84,8 @@ def test_fmi_sim(example, reference, tmp_path):
     start = [word for n, v in START.items() for word in ("--init-values", f"{n}={v}")]
     done = subprocess.run(
         [os.environ["GM_FMI_SIM"], "--model", example.fmu, "-i", inputs, "-o", outputs,
-         "-v", "co-simulation", "-s", "0", "-f", str(drive.STEPS * drive.H),
-         "--output-interval", str(drive.H), *start], capture_output=True, text=True)
+         "-v", "co-simulation", "-s", "0", "-f", str(ROWS * H),
+         "--output-interval", str(H), *start], capture_output=True, text=True)
     said = done.stdout + done.stderr
     assert done.returncode == 0 and complaints(said) == [], said
     with open(outputs, newline="") as file:
