@@ -35,7 +35,8 @@ static const gm_option options[] = {
     {.kind = GM_OPTION_TEXT, .name = "cycle", .value = "CYCLE",
      .offset = offsetof(arguments, drive.cycle),
      .help = "drive one vehicle over a cycle with both: ece15, urban (4 x ece15), eudc, "
-             "nedc or wltc3b"},
+             "nedc, wltc3b or FILE.csv with columns time_s, speed_km_h and optionally "
+             "gear and grade_percent"},
     {.kind = GM_OPTION_TEXT, .name = "fidelity", .value = "NAME", .fallback = "both",
      .offset = offsetof(arguments, drive.fidelity),
      .help = "with --cycle: rigid, lash or both"},

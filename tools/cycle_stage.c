@@ -145,6 +145,14 @@ static gm_status drive_all(const gm_gearset_file *file, const char *fmu,
     return status;
 }
 
+/* A file or one of the built-in ones. */
+static gm_status open_cycle(const char *name, gm_cycle **cycle, gm_error *error)
+{
+    const char *end = strrchr(name, '.');
+    return end && strcmp(end, ".csv") == 0 ? gm_cycle_read(name, cycle, error)
+                                           : gm_cycle_named(name, cycle, error);
+}
+
 gm_status gm_stage_cycle(const gm_gearset_file *file, const char *fmu,
                          const gm_cycle_settings *settings, gm_cycle_stage *stage,
                          gm_error *error)
@@ -157,7 +165,7 @@ gm_status gm_stage_cycle(const gm_gearset_file *file, const char *fmu,
     stage->n_paths = file->plant->info.n_paths;
     for (int p = 0; p < stage->n_paths; p++)
         stage->path_name[p] = file->plant->info.path[p].name;
-    gm_status status = gm_cycle_named(settings->cycle, &stage->cycle, error);
+    gm_status status = open_cycle(settings->cycle, &stage->cycle, error);
     if (status == GM_OK)
         status = list_gears(file->plant, &transmission, &forward, error);
     if (status == GM_OK)

@@ -9,9 +9,10 @@ const double gm_car_typical[GM_CAR_STATES] = {
     [GM_CAR_FLYWHEEL] = 0.1,       [GM_CAR_DRUM_SPEED] = 200.0,
     [GM_CAR_SHAFTS] = 0.1,         [GM_CAR_SPEED] = 10.0,
     [GM_CAR_INTEGRAL] = 1.0,       [GM_CAR_DISTANCE] = 1e3,
-    [GM_CAR_ENGINE_WORK] = 1e5,    [GM_CAR_CLUTCH_LOSS] = 1e4,
-    [GM_CAR_DAMPER_LOSS] = 1e3,    [GM_CAR_ROAD_LOSS] = 1e5,
-    [GM_CAR_BRAKE_LOSS] = 1e5,     [GM_CAR_GEARSET_WORK] = 1e5,
+    [GM_CAR_HEIGHT] = 10.0,        [GM_CAR_ENGINE_WORK] = 1e5,
+    [GM_CAR_CLUTCH_LOSS] = 1e4,    [GM_CAR_DAMPER_LOSS] = 1e3,
+    [GM_CAR_ROAD_LOSS] = 1e5,      [GM_CAR_BRAKE_LOSS] = 1e5,
+    [GM_CAR_GEARSET_WORK] = 1e5,
 };
 
 const char *gm_car_state_name(int i)
@@ -25,6 +26,7 @@ const char *gm_car_state_name(int i)
         [GM_CAR_SPEED] = "vehicle speed",
         [GM_CAR_INTEGRAL] = "integral part of the driver",
         [GM_CAR_DISTANCE] = "distance",
+        [GM_CAR_HEIGHT] = "height",
         [GM_CAR_ENGINE_WORK] = "work of the engine",
         [GM_CAR_CLUTCH_LOSS] = "loss of the clutches",
         [GM_CAR_DAMPER_LOSS] = "loss of the dampers",
@@ -55,9 +57,11 @@ static void clutch_at(const gm_trip_parts *parts, double t, const double *x, int
     by[GM_CAR_DYNAMIC + 1 + p] = -by_slip;
 }
 
-static gm_driver_act driver_at(const gm_trip_parts *parts, double t, const double *x)
+static gm_driver_act driver_at(const gm_trip_parts *parts, double t, const double *x,
+                               double hill)
 {
     gm_driver_view see = {.v = x[GM_CAR_SPEED],
+                          .hill = hill,
                           .integral = x[GM_CAR_INTEGRAL],
                           .w_engine = x[GM_CAR_ENGINE_SPEED],
                           .ratio = gm_gear_plan_ratio(parts->plan, t)};
@@ -70,7 +74,9 @@ void gm_car_at(const gm_trip_parts *parts, double t, const double *x,
 {
     const gm_vehicle *v = parts->vehicle;
     int n_paths = parts->gearset->n_paths;
-    point->act = driver_at(parts, t, x);
+    point->rise = gm_rise(v->grade + gm_cycle_grade(parts->cycle, t));
+    point->hill = v->mass * v->gravity * point->rise;
+    point->act = driver_at(parts, t, x, point->hill);
     point->target = gm_engine_target(v, point->act.torque, x[GM_CAR_ENGINE_SPEED],
                                      &point->target_demand, &point->target_w);
     point->speed[0] = parts->forward * flange_speed[0];
@@ -132,6 +138,7 @@ static void account(const gm_trip_parts *parts, const gm_car_point *point,
     double w_e = x[GM_CAR_ENGINE_SPEED], w_d = x[GM_CAR_DRUM_SPEED];
     double shafts_slip = point->speed[0] - x[GM_CAR_SPEED] / v->wheel_radius;
     dx[GM_CAR_DISTANCE] = x[GM_CAR_SPEED];
+    dx[GM_CAR_HEIGHT] = x[GM_CAR_SPEED] * point->rise;
     dx[GM_CAR_ENGINE_WORK] = x[GM_CAR_ENGINE_TORQUE] * w_e;
     dx[GM_CAR_DAMPER_LOSS] = v->flywheel_damping * (w_e - w_d) * (w_e - w_d) +
                              v->shaft_damping * shafts_slip * shafts_slip;
@@ -156,7 +163,7 @@ void gm_car_rates(const gm_trip_parts *parts, const gm_car_point *point, const d
     dx[GM_CAR_DRUM_SPEED] = (point->flywheel - carried(parts, point)) / v->drum_inertia;
     dx[GM_CAR_SHAFTS] = point->speed[0] - x[GM_CAR_SPEED] / v->wheel_radius;
     dx[GM_CAR_SPEED] =
-        (point->shafts / v->wheel_radius - point->road - point->act.brake) /
+        (point->shafts / v->wheel_radius - point->road - point->hill - point->act.brake) /
         moved_mass(v);
     dx[GM_CAR_INTEGRAL] = point->act.integral_rate;
     account(parts, point, x, dx);
@@ -217,5 +224,6 @@ double gm_car_stored(const gm_vehicle *v, const double *x)
     return 0.5 * (v->engine_inertia * w_e * w_e + v->drum_inertia * w_d * w_d +
                   moved_mass(v) * x[GM_CAR_SPEED] * x[GM_CAR_SPEED] +
                   v->flywheel_stiffness * x[GM_CAR_FLYWHEEL] * x[GM_CAR_FLYWHEEL] +
-                  v->shaft_stiffness * x[GM_CAR_SHAFTS] * x[GM_CAR_SHAFTS]);
+                  v->shaft_stiffness * x[GM_CAR_SHAFTS] * x[GM_CAR_SHAFTS]) +
+           v->mass * v->gravity * x[GM_CAR_HEIGHT];
 }

@@ -21,6 +21,7 @@ enum {
     GM_CAR_DYNAMIC,  /* how many states act back on others */
     /* accounts: integrals that nothing depends on */
     GM_CAR_DISTANCE = GM_CAR_DYNAMIC,
+    GM_CAR_HEIGHT,
     GM_CAR_ENGINE_WORK,
     GM_CAR_CLUTCH_LOSS,
     GM_CAR_DAMPER_LOSS,
@@ -45,6 +46,7 @@ typedef struct gm_car_point {
     double flywheel; /* N.m */
     double shafts;   /* N.m, driving positive */
     double road, road_slope;
+    double rise, hill;            /* rise over way; N */
     double speed[GM_MAX_FLANGES]; /* of the gearset; the output's in driving direction */
 } gm_car_point;
 
@@ -67,7 +69,7 @@ void gm_car_rates(const gm_trip_parts *parts, const gm_car_point *point, const d
 void gm_car_rates_by(const gm_trip_parts *parts, const gm_car_point *point,
                      double by[GM_CAR_DYNAMIC][GM_CAR_COLUMNS]);
 
-/** Kinetic and elastic energy of the car [J]. */
+/** Kinetic, elastic and potential energy of the car [J]. */
 double gm_car_stored(const gm_vehicle *vehicle, const double *x);
 
 /** Typical sizes of the states, for tolerances. */

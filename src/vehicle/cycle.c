@@ -19,6 +19,8 @@ void gm_cycle_destroy(gm_cycle *cycle)
     gm_free(cycle->time);
     gm_free(cycle->speed);
     gm_free(cycle->distance);
+    gm_free(cycle->grade);
+    gm_free(cycle->grade_sum);
     gm_free(cycle->gears);
     gm_free(cycle);
 }
@@ -42,6 +44,14 @@ static gm_status check_points(int n, const double *time, const double *speed,
                            speed[i], time[i]);
     }
     return GM_OK;
+}
+
+/* Integral by the points of what is linear between them. */
+static void sum_up(int n, const double *time, const double *value, double *sum)
+{
+    sum[0] = 0.0;
+    for (int i = 1; i < n; i++)
+        sum[i] = sum[i - 1] + 0.5 * (value[i] + value[i - 1]) * (time[i] - time[i - 1]);
 }
 
 static int allocate(gm_cycle *c, int n, int n_gears)
@@ -72,10 +82,24 @@ gm_status gm_cycle_create(const char *name, int n, const double *time,
     memcpy(c->speed, speed, (size_t)n * sizeof *speed);
     if (n_gears > 0)
         memcpy(c->gears, gears, (size_t)n_gears * sizeof *gears);
-    for (int i = 1; i < n; i++)
-        c->distance[i] = c->distance[i - 1] +
-                         0.5 * (speed[i] + speed[i - 1]) * (time[i] - time[i - 1]);
+    sum_up(n, time, speed, c->distance);
     *cycle = c;
+    return GM_OK;
+}
+
+gm_status gm_cycle_set_grade(gm_cycle *cycle, const double *grade, gm_error *error)
+{
+    size_t n = (size_t)cycle->n;
+    double *copy = gm_calloc(n, sizeof *copy), *sum = gm_calloc(n, sizeof *sum);
+    if (!copy || !sum) {
+        gm_free(copy);
+        gm_free(sum);
+        return gm_fail(error, GM_ERR_MEMORY, "out of memory");
+    }
+    memcpy(copy, grade, n * sizeof *copy);
+    sum_up(cycle->n, cycle->time, grade, sum);
+    cycle->grade = copy;
+    cycle->grade_sum = sum;
     return GM_OK;
 }
 
@@ -170,24 +194,38 @@ static int interval(const gm_cycle *c, double t)
     return low;
 }
 
-/* Distance and speed of the trace itself. */
-static double trace(const gm_cycle *c, double t, double *speed)
+/* Integral of a curve of the trace itself, and its value. */
+static double trace(const gm_cycle *c, const double *curve, const double *sum, double t,
+                    double *value)
 {
     double inside = fmin(fmax(t, 0.0), gm_cycle_duration(c));
     int i = interval(c, inside);
     double dt = inside - c->time[i];
-    double slope = (c->speed[i + 1] - c->speed[i]) / (c->time[i + 1] - c->time[i]);
-    *speed = c->speed[i] + slope * dt;
-    return c->distance[i] + (c->speed[i] + 0.5 * slope * dt) * dt + *speed * (t - inside);
+    double slope = (curve[i + 1] - curve[i]) / (c->time[i + 1] - c->time[i]);
+    *value = curve[i] + slope * dt;
+    return sum[i] + (curve[i] + 0.5 * slope * dt) * dt + *value * (t - inside);
+}
+
+/* Moving average, and its derivative. */
+static double smooth(const gm_cycle *c, const double *curve, const double *sum, double t,
+                     double *rate)
+{
+    double before, after;
+    double s0 = trace(c, curve, sum, t - 0.5 * GM_CYCLE_SMOOTHING, &before);
+    double s1 = trace(c, curve, sum, t + 0.5 * GM_CYCLE_SMOOTHING, &after);
+    *rate = (after - before) / GM_CYCLE_SMOOTHING;
+    return (s1 - s0) / GM_CYCLE_SMOOTHING;
 }
 
 double gm_cycle_speed(const gm_cycle *cycle, double t, double *acceleration)
 {
-    double before, after;
-    double s0 = trace(cycle, t - 0.5 * GM_CYCLE_SMOOTHING, &before);
-    double s1 = trace(cycle, t + 0.5 * GM_CYCLE_SMOOTHING, &after);
-    *acceleration = (after - before) / GM_CYCLE_SMOOTHING;
-    return (s1 - s0) / GM_CYCLE_SMOOTHING;
+    return smooth(cycle, cycle->speed, cycle->distance, t, acceleration);
+}
+
+double gm_cycle_grade(const gm_cycle *cycle, double t)
+{
+    double rate;
+    return cycle->grade ? smooth(cycle, cycle->grade, cycle->grade_sum, t, &rate) : 0.0;
 }
 
 /* First time of the trace after t. */

@@ -49,7 +49,7 @@ static void brakes(const gm_vehicle *c, const gm_driver_view *s, double force,
     double direction = tanh(s->v / HOLD_SPEED);
     double turn = (1.0 - direction * direction) / HOLD_SPEED;
     double size = work * wanted + (1.0 - work) * HOLD;
-    a->brake = size * direction;
+    a->brake = size * direction - (1.0 - work) * s->hill;
     a->brake_v = size * turn - work * on * force_v * direction;
     a->brake_i = -work * on * force_i * direction;
     a->brake_w = work * on * drag_slope * to_wheels * direction;
@@ -62,7 +62,7 @@ gm_driver_act gm_driver(const gm_vehicle *vehicle, const gm_driver_view *view)
     double road_slope, work = at_work(view->v_ref), error = view->v_ref - view->v;
     double force = c->driver_gain * error + c->driver_integral * view->integral +
                    c->driver_mass_factor * c->mass * view->a_ref +
-                   gm_road_load(c, view->v_ref, &road_slope);
+                   gm_road_load(c, view->v_ref, &road_slope) + view->hill;
     double to_engine = work * c->wheel_radius / view->ratio;
     a.torque = force * to_engine;
     a.torque_v = -c->driver_gain * to_engine;

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
  * The driver: a proportional and integral controller on the speed error with feed-forward
- * of the trace's acceleration and the road load. What it wants at the wheels becomes
+ * of the trace's acceleration, the road load and the hill. What it wants at the wheels becomes
  * engine torque and, where the engine's drag does not reach, brake force. While the cycle
- * stands still the pedal is released and the brake holds the car.
+ * stands still the pedal is released and the brake holds the car: its force carries what
+ * the hill pulls, and against motion comes what stops the car.
  *
  * Everything is continuous, so that what a comparison sees is the gearset's doing.
  */
@@ -19,6 +20,7 @@ typedef struct gm_driver_view {
     double integral;     /* m */
     double w_engine;     /* rad/s */
     double ratio;        /* w_engine / w_wheel that the driver reckons with */
+    double hill;         /* force of the hill against the way, N */
 } gm_driver_view;
 
 /** What the driver does, with derivatives. */

@@ -30,6 +30,8 @@ typedef struct gm_cycle {
     int n;
     double *time, *speed; /* [n] s, strictly increasing from 0; m/s, >= 0 */
     double *distance;     /* [n] m, of the trace */
+    double *grade;        /* [n] rise over run; NULL: level */
+    double *grade_sum;    /* [n] its integral over time, s; NULL likewise */
     int n_gears;          /* 0: the cycle names no gears */
     gm_cycle_gear *gears; /* [n_gears] by time, the first at 0 */
 } gm_cycle;
@@ -46,6 +48,16 @@ GM_NODISCARD gm_status gm_cycle_create(const char *name, int n, const double *ti
                                        const double *speed, int n_gears,
                                        const gm_cycle_gear *gears, gm_cycle **cycle,
                                        gm_error *error);
+
+/** A cycle from a file: columns time_s, speed_km_h, and optionally gear and grade_percent
+ *  (cycle_file.c). Its name is that of the file. GM_ERR_IO, GM_ERR_FORMAT with file, line,
+ *  what was found and expected, GM_ERR_MEMORY. */
+GM_NODISCARD gm_status gm_cycle_read(const char *path, gm_cycle **cycle, gm_error *error);
+
+/** Give the cycle's points a grade (rise over run, finite), copied. Once. GM_ERR_MEMORY;
+ *  then the cycle stays level. */
+GM_NODISCARD gm_status gm_cycle_set_grade(gm_cycle *cycle, const double *grade,
+                                          gm_error *error);
 void gm_cycle_destroy(gm_cycle *cycle);
 
 double gm_cycle_duration(const gm_cycle *cycle); /* s */
@@ -55,8 +67,11 @@ double gm_cycle_distance(const gm_cycle *cycle); /* m */
  *  after the end the trace keeps its edge value. */
 double gm_cycle_speed(const gm_cycle *cycle, double t, double *acceleration);
 
-/** The first time after t at which the smoothed speed changes its law (between such times
- *  it is a polynomial); infinite after the last. */
+/** Smoothed grade at time t, rise over run; 0 on the level. */
+double gm_cycle_grade(const gm_cycle *cycle, double t);
+
+/** The first time after t at which smoothed speed and grade change their laws (between such
+ *  times they are polynomials); infinite after the last. */
 double gm_cycle_next(const gm_cycle *cycle, double t);
 
 #ifdef __cplusplus

@@ -7,7 +7,8 @@
  *   J_d dw_d/dt = T_dmf - sum_p T_p        T_dmf = k twist + d (w_e - w_d)
  *   T_p = capacity_p tanh((w_d - w_p) / slip)           into path p of the gearset
  *   T_s = k twist + d (w_o - v / r)                     out of the gearset's output
- *   (m + J_w / r2) dv/dt = T_s / r - rolling - drag - grade - brake
+ *   (m + J_w / r2) dv/dt = T_s / r - rolling - drag - hill - brake
+ *   hill = m g sin(atan(grade))     grade: the road's and, added to it, the cycle's
  *
  * w_o counts positive where the car drives forward in a forward gear.
  */
@@ -58,6 +59,7 @@ typedef struct gm_vehicle {
     double preselect_time;              /* before the shift, s */
     double interrupt_time;              /* one clutch: open, before and after, s */
     double gravity;                     /* m/s2 */
+    double grade;                       /* of the whole road, rise over run */
 } gm_vehicle;
 
 /** A C-segment car: mass, radius, inertia, rolling resistance and drag of a Volkswagen
@@ -84,8 +86,12 @@ double gm_engine_target(const gm_vehicle *v, double demand, double w, double *d_
 /** Capacity of a closing or closed clutch over engine speed [N.m]. */
 double gm_clutch_capacity(const gm_vehicle *v, double w, double *slope);
 
-/** Rolling resistance and air drag [N] at speed v [m/s]. */
+/** Rolling resistance and air drag [N] at speed v [m/s], on the level: the cosine of a
+ *  grade of 10 % is 0.995. */
 double gm_road_load(const gm_vehicle *vehicle, double v, double *slope);
+
+/** Rise over way, the sine of the slope's angle, for a grade, rise over run. */
+double gm_rise(double grade);
 
 #ifdef __cplusplus
 }

@@ -133,6 +133,7 @@ void gm_trip_look(gm_trip *trip, double t, const double *x, gm_trip_view *view)
         .cycle_speed = gm_cycle_speed(trip->parts.cycle, t, &acceleration),
         .speed = x[GM_CAR_SPEED],
         .distance = x[GM_CAR_DISTANCE],
+        .height = x[GM_CAR_HEIGHT],
         .engine_speed = x[GM_CAR_ENGINE_SPEED],
         .engine_torque = x[GM_CAR_ENGINE_TORQUE],
         .demand = point.act.torque,

@@ -24,6 +24,7 @@ typedef struct gm_trip_parts {
 /** What is seen of a trip at one instant. */
 typedef struct gm_trip_view {
     double cycle_speed, speed, distance;     /* m/s, m/s, m */
+    double height;                           /* m, since the start */
     double engine_speed, engine_torque;      /* rad/s, N.m */
     double demand;                           /* of the driver at the engine, N.m */
     double input_torque[GM_MAX_INPUT_PATHS]; /* into each path of the gearset, N.m */

@@ -185,3 +185,8 @@ double gm_road_load(const gm_vehicle *vehicle, double v, double *slope)
     *slope = rolling * (1.0 - s * s) / REST_SPEED + 2.0 * drag * fabs(v);
     return rolling * s + drag * v * fabs(v);
 }
+
+double gm_rise(double grade)
+{
+    return grade / sqrt(1.0 + grade * grade);
+}

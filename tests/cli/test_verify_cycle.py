@@ -69,6 +69,19 @@ def test_trace_has_all_drives(driven, trace):
     assert all(math.isfinite(float(v)) for row in rows[::500] for v in row.values())
 
 
+def test_a_cycle_of_ones_own(example_fmu, tmp_path):
+    """Up a hill and to a stop, in the gears of the file."""
+    cycle = tmp_path / "hill.csv"
+    cycle.write_text("time_s,speed_km_h,gear,grade_percent\n"
+                     "0,0,1,5\n2,0,1,5\n8,20,2,5\n12,20,,5\n17,0,1,0\n20,0,1,0\n")
+    got = result_of("verify", EXAMPLE, example_fmu, "--cycle", cycle, "--fidelity", "rigid",
+                    "--tolerance", "1e-4")
+    assert got["cycle"] == "hill" and got["duration_s"] == 20
+    cycle.write_text("time_s,speed_km_h\n0,0\n5,20 km/h\n")
+    assert fails("verify", EXAMPLE, example_fmu, "--cycle", cycle) == (
+        f"{cycle}:3: column speed_km_h: found '20 km/h', expected a number")
+
+
 def test_wrong_wishes_are_refused(example_fmu, tmp_path):
     assert "wltc3b" in fails("verify", EXAMPLE, example_fmu, "--cycle", "ftp75")
     assert gearmap("verify", EXAMPLE, example_fmu).returncode == 2

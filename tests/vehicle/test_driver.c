@@ -52,7 +52,8 @@ static gm_driver_view random_view(uint64_t *seed)
                             .v = random_between(seed, -0.5, 2.5),
                             .integral = random_between(seed, -8.0, 8.0),
                             .w_engine = random_between(seed, 60.0, 400.0),
-                            .ratio = random_between(seed, 3.0, 17.0)};
+                            .ratio = random_between(seed, 3.0, 17.0),
+                            .hill = random_between(seed, -2e3, 2e3)};
 }
 
 static int near(double exact, double difference, double scale)
@@ -97,6 +98,9 @@ static void a_standing_cycle_asks_for_nothing_but_the_brake(void **state)
     stands.v = 0.5; /* rolls on */
     a = gm_driver(&car, &stands);
     assert_true(a.torque == 0.0 && a.brake > 1000.0);
+    stands = (gm_driver_view){.w_engine = 80.0, .ratio = 16.7, .hill = 800.0};
+    a = gm_driver(&car, &stands); /* carries the hill and no more */
+    assert_true(a.torque == 0.0 && a.brake == -800.0);
 }
 
 static void a_vehicle_with_a_wrong_number_is_refused(void **state)

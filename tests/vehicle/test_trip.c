@@ -28,12 +28,14 @@ typedef struct fixture {
     gm_trip *trip;
 } fixture;
 
-static void set_up(fixture *f, const char *cycle, double ratio, int with_jacobian)
+static void set_up(fixture *f, const char *cycle, double ratio, double grade,
+                   int with_jacobian)
 {
     gm_error error;
     *f = (fixture){.vehicle = gm_vehicle_reference(),
                    .gearset = {ratio, 0.01, 0.05, 2e4, 20.0, 0.3, with_jacobian}};
     assert_int_equal(gm_cycle_named(cycle, &f->cycle, &error), GM_OK);
+    f->vehicle.grade = grade;
     assert_int_equal(
         gm_gear_plan_create(f->cycle, &f->vehicle, &one_gear, &f->plan, &error), GM_OK);
     f->dynamics = elastic_gearset_dynamics(&f->gearset);
@@ -100,7 +102,7 @@ static void jacobian_is_that_of_the_rates(void **state)
     uint64_t seed = 3;
     for (int with = 0; with < 2; with++) {
         fixture f;
-        set_up(&f, "ece15", with ? 8.0 : -8.0, with);
+        set_up(&f, "ece15", with ? 8.0 : -8.0, with ? 0.03 : 0.0, with);
         for (int i = 0; i < 200; i++)
             check_jacobian(&f, &seed);
         tear_down(&f);
@@ -108,13 +110,13 @@ static void jacobian_is_that_of_the_rates(void **state)
 }
 
 /* The car follows the cycle, and what the engine did is all accounted for. */
-static void drives(const char *cycle, double ratio)
+static void drives(const char *cycle, double ratio, double grade)
 {
     fixture f;
     gm_error error;
     gm_transient *transient = NULL;
     gm_trip_view view;
-    set_up(&f, cycle, ratio, 1);
+    set_up(&f, cycle, ratio, grade, 1);
     gm_transient_system system = gm_trip_system(f.trip);
     gm_transient_options options = {.tolerance = 1e-6};
     assert_int_equal(gm_transient_create(&system, &options, &transient, &error), GM_OK);
@@ -128,6 +130,8 @@ static void drives(const char *cycle, double ratio)
     /* 2 km/h: what UN Regulation 83 allows a driver */
     assert_true(worst < 2.0 / 3.6);
     assert_true(fabs(view.speed) < 0.02);
+    double rise = sin(atan(grade));
+    assert_true(fabs(view.height - rise * view.distance) < 1e-4 * view.distance);
     assert_true(fabs(view.distance - gm_cycle_distance(f.cycle)) <
                 0.01 * gm_cycle_distance(f.cycle));
     gm_transient_energy e = gm_transient_account(transient);
@@ -146,8 +150,15 @@ static void drives(const char *cycle, double ratio)
 static void the_car_drives_the_cycles(void **state)
 {
     (void)state;
-    drives("ece15", 8.0);
-    drives("ece15", -8.0);
+    drives("ece15", 8.0, 0.0);
+    drives("ece15", -8.0, 0.0);
+}
+
+static void the_car_drives_up_and_down(void **state)
+{
+    (void)state;
+    drives("ece15", 8.0, 0.04);
+    drives("ece15", 8.0, -0.04);
 }
 
 static void no_memory_is_an_error(void **state)
@@ -157,7 +168,7 @@ static void no_memory_is_an_error(void **state)
     gm_error error;
     gm_trip *trip = NULL;
     gm_status status = GM_ERR_MEMORY;
-    set_up(&f, "ece15", 8.0, 1);
+    set_up(&f, "ece15", 8.0, 0.0, 1);
     for (int k = 1; status != GM_OK; k++) {
         gm_alloc_fail_after(k);
         status = gm_trip_create(&f.parts, &trip, &error);
@@ -174,6 +185,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(jacobian_is_that_of_the_rates),
         cmocka_unit_test(the_car_drives_the_cycles),
+        cmocka_unit_test(the_car_drives_up_and_down),
         cmocka_unit_test(no_memory_is_an_error),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
