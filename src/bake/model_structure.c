@@ -13,7 +13,7 @@ typedef dependency (*dependency_rule)(scalar of, scalar on);
 /* One Unknown with its exact dependencies; indices count from 1. */
 static void write_unknown(xml *x, scalar unknown, dependency_rule rule)
 {
-    static const char *const name[] = {"", "dependent", "constant"};
+    static const char *const name[] = {"", "dependent", "constant", "discrete"};
     gm_buffer on = {0}, kind = {0};
     for (int j = 0; j < x->n; j++) {
         dependency d = rule(unknown, x->all[j]);

@@ -115,7 +115,6 @@ static bool follows_load(variable_id id)
     case VARIABLE_PATH_LOSS_TORQUE:
     case VARIABLE_OUTPUT_LOSS_TORQUE:
     case VARIABLE_LOSS_POWER:
-    case VARIABLE_POWER:
     case VARIABLE_OUT_OF_MAP:
         return true;
     default:
@@ -138,9 +137,27 @@ dependency gm_bake_depends(scalar of, scalar on)
     if (is_state(of.id))
         return of.id == on.id && of.path == on.path ? DEPENDENCY_CONSTANT
                                                     : DEPENDENCY_NONE;
-    bool depends = follows_load(of.id)
-                       ? is_torque(on.id) || is_speed(on.id)
-                       : of.id == VARIABLE_KINETIC_ENERGY && is_speed(on.id);
+    bool own = on.path == of.path || on.path < 0, depends = false;
+    switch (of.id) {
+    case VARIABLE_PATH_TWIST_RATE: /* w_p - r w_o or 0 */
+        return is_speed(on.id) && own ? DEPENDENCY_DISCRETE : DEPENDENCY_NONE;
+    case VARIABLE_POWER:
+        depends = is_torque(on.id) || is_speed(on.id);
+        break;
+    case VARIABLE_KINETIC_ENERGY:
+        depends = is_speed(on.id);
+        break;
+    case VARIABLE_ELASTIC_ENERGY:
+        depends = on.id == VARIABLE_PATH_TWIST;
+        break;
+    case VARIABLE_PATH_A: /* what twists the other path does not reach this one */
+        depends = is_torque(on.id) || is_speed(on.id) ||
+                  (on.id == VARIABLE_PATH_TWIST && own);
+        break;
+    default:
+        depends = follows_load(of.id) && (is_torque(on.id) || is_speed(on.id) ||
+                                          on.id == VARIABLE_PATH_TWIST);
+    }
     return depends ? DEPENDENCY_DEPENDENT : DEPENDENCY_NONE;
 }
 
@@ -163,14 +180,22 @@ static bool depends_initially(scalar of, scalar on)
         return on.id == VARIABLE_PATH_GEAR && on.path == of.path;
     case VARIABLE_PATH_INERTIA:
     case VARIABLE_OUTPUT_INERTIA:
-        return on.id == VARIABLE_PATH_GEAR;
+        return on.id == VARIABLE_PATH_GEAR || on.id == VARIABLE_FIDELITY;
     case VARIABLE_KINETIC_ENERGY:
         return sets_speeds(on.id);
+    case VARIABLE_ELASTIC_ENERGY:
+        return on.id == VARIABLE_PATH_GEAR || on.id == VARIABLE_PATH_TWIST ||
+               on.id == VARIABLE_FIDELITY;
     case VARIABLE_POWER:
         return is_torque(on.id) || sets_speeds(on.id);
+    case VARIABLE_PATH_A:
+        if (on.id == VARIABLE_PATH_TWIST)
+            return on.path == of.path;
+        /* fallthrough */
     default:
         return follows_load(of.id) &&
-               (is_torque(on.id) || sets_speeds(on.id) || on.id == VARIABLE_LOSS_SCALE);
+               (is_torque(on.id) || sets_speeds(on.id) || on.id == VARIABLE_LOSS_SCALE ||
+                on.id == VARIABLE_PATH_TWIST || on.id == VARIABLE_FIDELITY);
     }
 }
 

@@ -70,7 +70,8 @@ int gm_bake_indicators(int n_paths);
 typedef enum dependency {
     DEPENDENCY_NONE,
     DEPENDENCY_DEPENDENT, /* in any way */
-    DEPENDENCY_CONSTANT   /* by a constant factor */
+    DEPENDENCY_CONSTANT,  /* by a constant factor */
+    DEPENDENCY_DISCRETE   /* by a factor that changes at events only */
 } dependency;
 
 /** How output `of` depends directly on scalar `on` (at communication points and between

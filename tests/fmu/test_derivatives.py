@@ -14,11 +14,13 @@ POINTS = [  # gears and speeds at the start, torques
      "even.tau": 63.0, "output.tau": -900.0},
     {"odd.gear": 0, "even.gear": 0, "output.w_start": 12.0, "odd.w_start": 80.0,
      "even.w_start": 55.0, "odd.tau": 3.0, "even.tau": 2.0, "output.tau": -52.0},
-    {"odd.gear": 1, "even.gear": 0, "odd.tau": 0.02, "even.w_start": 33.0},  # held
+    {"odd.gear": 1, "even.gear": 0, "odd.tau": 0.02, "even.w_start": 33.0,  # held
+     "odd.twist": 2.515e-3},
     {"odd.gear": 3, "output.w_start": 21.0, "odd.tau": 93.0, "even.w_start": 9.0,
      "loss_scale": 0.0},
 ]
-FIDELITIES = [1, 2]
+RIGID = {"fidelity": 1}
+LASH = {"fidelity": 2, "odd.twist": 3.1e-3, "even.twist": -3.3e-3}
 
 
 def references(baked, names):
@@ -61,12 +63,12 @@ def assert_same(found, expected, scale):
     assert found == pytest.approx(expected, rel=1e-6, abs=1e-8 + 1e-10 * scale)
 
 
-@pytest.mark.parametrize("fidelity", FIDELITIES)
+@pytest.mark.parametrize("fidelity", [RIGID, LASH])
 @pytest.mark.parametrize("point", POINTS)
 def test_derivatives_to_inputs_and_states(two, host, point, fidelity):
     names, x_names = continuous_outputs(two), states(two)
     with host(two, exchange=True) as h:
-        h.start({**point, "fidelity": fidelity})
+        h.start({**fidelity, **point})
         x = h.states()
         scale = np.abs(reals(h, two, names)).max()
         jac = jacobian(h, two, names, INPUTS + x_names)
@@ -115,9 +117,9 @@ def test_nothing_depends_but_what_is_declared(two, host):
                 for u in two.description.outputs for k in u.dependencies}
     names, knowns = continuous_outputs(two), [n for n in INPUTS] + states(two)
     for point in POINTS:
-        for fidelity in FIDELITIES:
+        for fidelity in (RIGID, LASH):
             with host(two, exchange=True) as h:
-                h.start({**point, "fidelity": fidelity})
+                h.start({**fidelity, **point})
                 jac = jacobian(h, two, names, knowns)
                 found = {(names[i], knowns[j]) for i, j in zip(*np.nonzero(jac))}
                 assert found <= declared
