@@ -39,8 +39,8 @@ static fmi2Status take_known(fmi2_instance *f, unsigned vr, double rate, bool in
     return fmi2OK;
 }
 
-static fmi2Status give_unknowns(fmi2_instance *f, const gm_rates *outputs,
-                                const fmi2ValueReference vr[], size_t n, fmi2Real value[])
+static fmi2Status check_unknowns(fmi2_instance *f, const fmi2ValueReference vr[],
+                                 size_t n)
 {
     gm_reference r;
     char name[FMI2_NAME_SIZE];
@@ -50,9 +50,17 @@ static fmi2Status give_unknowns(fmi2_instance *f, const gm_rates *outputs,
         if (gm_variables[r.id].causality != GM_CAUSALITY_OUTPUT)
             return fmi2_fail(f, function, "%s is not an output",
                              fmi2_variable_name(r, name));
-        value[i] = outputs->of[r.id][r.path];
     }
     return fmi2OK;
+}
+
+static void give_unknowns(const gm_rates *outputs, const fmi2ValueReference vr[],
+                          size_t n, fmi2Real value[])
+{
+    gm_reference r;
+    for (size_t i = 0; i < n; i++)
+        if (gm_run_find(gm_model_map(), vr[i], GM_TYPE_REAL, &r) == GM_VERDICT_OK)
+            value[i] = outputs->of[r.id][r.path];
 }
 
 fmi2Status fmi2GetDirectionalDerivative(fmi2Component c,
@@ -73,6 +81,8 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c,
     for (size_t i = 0; i < nKnown; i++)
         if (take_known(f, vKnown_ref[i], dvKnown[i], initial, &known))
             return fmi2Error;
+    if (check_unknowns(f, vUnknown_ref, nUnknown))
+        return fmi2Error;
     if ((initial && gm_run_start(gm_model_map(), &f->run)) ||
         !gm_gradient_follow(gm_model_map(), &f->run.component, initial, &known,
                             &outputs)) {
@@ -80,5 +90,6 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c,
                  function, f->run.time);
         return fmi2Discard;
     }
-    return give_unknowns(f, &outputs, vUnknown_ref, nUnknown, dvUnknown);
+    give_unknowns(&outputs, vUnknown_ref, nUnknown, dvUnknown);
+    return fmi2OK;
 }

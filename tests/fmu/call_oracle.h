@@ -2,8 +2,8 @@
  *
  * What the standard allows: the state of an instance as its host must see it, and whether
  * a call with given arguments is legal then. Written from FMI 2.0.3 (section 2.1.7 on
- * values, the table of section 4.2.4 on the order of calls) and the variables' list, not
- * from the component's code.
+ * values, the tables of sections 3.2.3 and 4.2.4 on the order of calls) and the variables'
+ * list, not from the component's code.
  */
 #ifndef CALL_ORACLE_H
 #define CALL_ORACLE_H
@@ -21,18 +21,23 @@ enum {
     STEP_COMPLETE = 4,
     STEP_FAILED = 8,
     TERMINATED = 16,
-    BROKEN = 32, /* "error" in the table */
+    BROKEN = 32, /* "error" in the tables */
+    EVENT = 64,
+    CONTINUOUS = 128,
+    EXCHANGE = EVENT | CONTINUOUS,
     BEFORE_START = INSTANTIATED | INITIALISATION,
-    ANYWHERE = 63,
-    TO_SET = BEFORE_START | STEP_COMPLETE,
-    TO_GET = INITIALISATION | STEP_COMPLETE | STEP_FAILED | TERMINATED | BROKEN
+    ANYWHERE = 255,
+    TO_SET = BEFORE_START | STEP_COMPLETE | EXCHANGE,
+    TO_GET = INITIALISATION | STEP_COMPLETE | STEP_FAILED | TERMINATED | BROKEN | EXCHANGE
 };
 
 typedef struct oracle {
     int state;
+    bool exchange; /* instantiated for Model Exchange */
     bool experiment_set, stop_defined;
     double time, stop;
-    bool huge; /* was given numbers whose results may overflow */
+    bool huge;       /* was given numbers whose results may overflow */
+    bool update_due; /* in an event: something changed since the last update */
 } oracle;
 
 /** May this number be given to a variable of the example in this state? type: the type

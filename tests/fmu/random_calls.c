@@ -70,7 +70,8 @@ bool random_is_in(const random_run *r, int states)
 
 void random_note_size(random_run *r, double x)
 {
-    r->oracle.huge = r->oracle.huge || fabs(x) > 1e9;
+    bool tiny = fabs(x) > 0 && fabs(x) < 1e-100; /* its inverse is huge */
+    r->oracle.huge = r->oracle.huge || fabs(x) > 1e9 || tiny;
 }
 
 fmi2Status random_setup(random_run *r, bool *legal)
@@ -107,13 +108,14 @@ fmi2Status random_exit(random_run *r, bool *legal)
     *legal = random_is_in(r, INITIALISATION);
     fmi2Status status = fmi2ExitInitializationMode(random_handle(r, legal));
     if (*legal && status <= fmi2Warning)
-        r->oracle.state = STEP_COMPLETE;
+        r->oracle.state = r->oracle.exchange ? EVENT : STEP_COMPLETE;
+    r->oracle.update_due = true;
     return status;
 }
 
 fmi2Status random_terminate(random_run *r, bool *legal)
 {
-    *legal = random_is_in(r, STEP_COMPLETE | STEP_FAILED);
+    *legal = random_is_in(r, STEP_COMPLETE | STEP_FAILED | EXCHANGE);
     fmi2Status status = fmi2Terminate(random_handle(r, legal));
     if (*legal)
         r->oracle.state = TERMINATED;
@@ -125,7 +127,7 @@ fmi2Status random_reset(random_run *r, bool *legal)
     *legal = true;
     fmi2Status status = fmi2Reset(random_handle(r, legal));
     if (*legal)
-        r->oracle = (oracle){.state = INSTANTIATED};
+        r->oracle = (oracle){.state = INSTANTIATED, .exchange = r->oracle.exchange};
     return status;
 }
 
@@ -172,7 +174,8 @@ fmi2Status random_status(random_run *r, bool *legal)
     double time = NAN;
     fmi2Boolean yes = 7;
     fmi2String text = NULL;
-    *legal = random_is_in(r, STEP_COMPLETE | STEP_FAILED | TERMINATED);
+    *legal =
+        !r->oracle.exchange && random_is_in(r, STEP_COMPLETE | STEP_FAILED | TERMINATED);
     fmi2Component c = random_handle(r, legal);
     fmi2Status value, status;
     switch (random_draw(r, 5)) {
@@ -199,4 +202,12 @@ fmi2Status random_cancel(random_run *r, bool *legal)
 {
     *legal = false; /* no step is ever in progress */
     return fmi2CancelStep(random_handle(r, legal));
+}
+
+void random_assert_numbers(const random_run *r, const double *value, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        if (!oracle_is_number(value[i]))
+            fail_msg("number %u of %u is %g in state %d", (unsigned)i, (unsigned)n,
+                     value[i], r->oracle.state);
 }

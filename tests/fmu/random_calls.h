@@ -17,6 +17,7 @@ typedef struct random_run {
     oracle oracle, kept;
     fmi2FMUstate saved;
     bool reached; /* the call was made with the instance, not with NULL */
+    bool open;    /* the standard leaves the answer open */
 } random_run;
 
 /** 0 .. n - 1; true once in so many. */
@@ -56,9 +57,25 @@ fmi2Status random_output_rates(random_run *r, bool *legal);
 fmi2Status random_logging(random_run *r, bool *legal);
 fmi2Status random_status(random_run *r, bool *legal);
 fmi2Status random_cancel(random_run *r, bool *legal);
+fmi2Status random_derivative(random_run *r, bool *legal);
 fmi2Status random_keep(random_run *r, bool *legal);
 fmi2Status random_restore(random_run *r, bool *legal);
 fmi2Status random_forget(random_run *r, bool *legal);
 fmi2Status random_bytes(random_run *r, bool *legal);
+
+/* Model Exchange */
+fmi2Status random_enter_event(random_run *r, bool *legal);
+fmi2Status random_update(random_run *r, bool *legal);
+fmi2Status random_enter_continuous(random_run *r, bool *legal);
+fmi2Status random_completed(random_run *r, bool *legal);
+fmi2Status random_time(random_run *r, bool *legal);
+fmi2Status random_set_states(random_run *r, bool *legal);
+fmi2Status random_get_states(random_run *r, bool *legal);
+fmi2Status random_rates(random_run *r, bool *legal);
+fmi2Status random_indicators(random_run *r, bool *legal);
+fmi2Status random_nominals(random_run *r, bool *legal);
+
+/** Stops the test unless all n values are numbers. */
+void random_assert_numbers(const random_run *r, const double *value, size_t n);
 
 #endif
