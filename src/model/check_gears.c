@@ -86,6 +86,9 @@ static gm_status check_planet(const gm_description *d, const gm_wheel *w, gm_err
 
 static gm_status check_gear(const gm_description *d, const gm_wheel *w, gm_error *error)
 {
+    gm_status planet = w->planets > 0 ? check_planet(d, w, error) : GM_OK;
+    if (planet != GM_OK)
+        return planet;
     if (w->internal && (isnan(w->inertia) || isnan(w->mass)))
         return gm_part_fail(d, "gear", &w->id, error,
                             "a gear with internal teeth needs inertia_kgm2 and mass_kg, "
@@ -100,9 +103,7 @@ static gm_status check_gear(const gm_description *d, const gm_wheel *w, gm_error
         return gm_part_fail(d, "gear", &w->id, error,
                             "pin_radius_mm and pin_angle_deg have an effect only with "
                             "planets");
-    gm_status status = w->planets > 0 ? check_planet(d, w, error) : GM_OK;
-    if (status == GM_OK)
-        status = check_position(d, w, error);
+    gm_status status = check_position(d, w, error);
     return status == GM_OK ? check_bore(d, w, error) : status;
 }
 

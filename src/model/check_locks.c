@@ -87,11 +87,6 @@ static gm_status path_gear_fail(const gm_description *d, const gm_path_part *pat
                         sentence, name, more);
 }
 
-static int same_lock(const gm_lock *a, const gm_lock *b)
-{
-    return a->is_clutch == b->is_clutch && a->index == b->index;
-}
-
 /* Entry i of a list, beside those before it. */
 static gm_status check_entry(const gm_description *d, const gm_path_part *path,
                              const gm_path_gear *gear, int i, gm_error *error)
@@ -106,7 +101,7 @@ static gm_status check_entry(const gm_description *d, const gm_path_part *path,
         return path_gear_fail(d, path, gear, error, "no synchroniser locks gear", name,
                               "; expected 1, found 0");
     for (int k = 0; k < i; k++) {
-        if (same_lock(lock, &gear->locks[k]))
+        if (gm_same_lock(lock, &gear->locks[k]))
             return path_gear_fail(d, path, gear, error, "locks twice", name, "");
         if (!lock->is_clutch && !gear->locks[k].is_clutch &&
             gm_synchroniser_of(d, lock->index) ==
@@ -134,15 +129,6 @@ static gm_status check_locks(const gm_description *d, const gm_path_part *path,
     return status;
 }
 
-static int same_locks(const gm_path_gear *a, const gm_path_gear *b)
-{
-    int found = 0;
-    for (int i = 0; i < a->n_locks; i++)
-        for (int k = 0; k < b->n_locks; k++)
-            found += same_lock(&a->locks[i], &b->locks[k]);
-    return found == a->n_locks && a->n_locks == b->n_locks;
-}
-
 /* The same gear under two numbers. */
 static gm_status check_different(const gm_description *d, const gm_path_part *path, int i,
                                  gm_error *error)
@@ -151,19 +137,18 @@ static gm_status check_different(const gm_description *d, const gm_path_part *pa
     gm_label id = path->id;
     id.line = gear->line;
     for (int k = 0; k < i; k++)
-        if (same_locks(&path->gears[k], gear))
+        if (gm_same_locks(&path->gears[k], gear))
             return gm_part_fail(
                 d, "path", &id, error,
                 "gear %d: locks '%s', already locked by gear %d in line %d", gear->number,
                 first_lock(d, gear), path->gears[k].number, path->gears[k].line);
-    if (path->has_neutral && same_locks(&path->neutral, gear))
-        return gm_part_fail(
-            d, "path", &id, error,
-            "gear %d: locks what is locked in neutral, found %s%s%s; only "
-            "the one gear of a path without neutral locks nothing",
-            gear->number, gear->n_locks > 0 ? "'" : "",
-            gear->n_locks > 0 ? first_lock(d, gear) : "nothing",
-            gear->n_locks > 0 ? "'" : "");
+    if (path->has_neutral && gm_same_locks(&path->neutral, gear))
+        return gm_part_fail(d, "path", &id, error,
+                            "gear %d: locks what is locked in neutral, found %s%s%s; "
+                            "only a path with one gear can do without neutral",
+                            gear->number, gear->n_locks > 0 ? "'" : "",
+                            gear->n_locks > 0 ? first_lock(d, gear) : "nothing",
+                            gear->n_locks > 0 ? "'" : "");
     return GM_OK;
 }
 

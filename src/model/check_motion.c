@@ -152,8 +152,7 @@ static int locks_it(const gm_path_gear *gear, const gm_lock *lock)
 {
     int found = 0;
     for (int i = 0; i < gear->n_locks; i++)
-        found |= gear->locks[i].is_clutch == lock->is_clutch &&
-                 gear->locks[i].index == lock->index;
+        found |= gm_same_lock(&gear->locks[i], lock);
     return found;
 }
 

@@ -2,7 +2,7 @@
  *
  * Ratios that a description gives, against those that its gears make. A slip in a tooth
  * number keeps every other rule when the profile shift or the module hides it; the given
- * ratio does not.
+ * ratio does not. A gear that holds the input is none.
  */
 #include "model/check.h"
 #include "model/gearset.h"
@@ -24,10 +24,16 @@ static gm_status check_ratio(const gm_gearset *gearset, int p, const gm_path_gea
     if (status != GM_OK)
         return status;
     double made = kinematics.ratio[p];
-    if (fabs(made - given->ratio) <= TOLERANCE * fabs(given->ratio))
-        return GM_OK;
     gm_label id = d->paths[p].id;
     id.line = given->line;
+    if (made == 0.0)
+        return gm_part_fail(d, "path", &id, error,
+                            "gear %d: what it locks holds the input at rest while the "
+                            "output turns",
+                            given->number);
+    if (isnan(given->ratio) ||
+        fabs(made - given->ratio) <= TOLERANCE * fabs(given->ratio))
+        return GM_OK;
     if (made * given->ratio < 0.0)
         return gm_part_fail(d, "path", &id, error,
                             "gear %d: given ratio %.6g, the gears make %.6g; the sign "
@@ -45,7 +51,6 @@ gm_status gm_gearset_check_ratios(const gm_gearset *gearset, gm_error *error)
     gm_status status = GM_OK;
     for (int p = 0; p < d->n_paths; p++)
         for (int i = 0; i < d->paths[p].n_gears && status == GM_OK; i++)
-            if (!isnan(d->paths[p].gears[i].ratio))
-                status = check_ratio(gearset, p, &d->paths[p].gears[i], error);
+            status = check_ratio(gearset, p, &d->paths[p].gears[i], error);
     return status;
 }

@@ -145,7 +145,8 @@ static void take_neutral_out(gm_path_part *path)
         memmove(&path->gears[i], &path->gears[i + 1],
                 (size_t)(path->n_gears - i) * sizeof *path->gears);
     }
-    path->has_neutral = found || path->n_gears != 1 || path->gears[0].n_locks > 0;
+    path->has_neutral =
+        path->n_gears != 1 || !gm_same_locks(&path->gears[0], &path->neutral);
 }
 
 /* Splines without play. */

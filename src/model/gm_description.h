@@ -257,9 +257,9 @@ typedef struct gm_path_gear {
     int line;
 } gm_path_gear;
 
-/** A path that has one gear, which locks nothing, has no neutral: gear 0 is no gear of
- *  it and its rest gear, which it is in while another path is looked at alone, is that
- *  gear. */
+/** A path that has one gear, which locks what neutral locks (as a rule nothing), has no
+ *  neutral: gear 0 is no gear of it and its rest gear, which it is in while another path
+ *  is looked at alone, is that gear. */
 typedef struct gm_path_part {
     gm_label id; /* "odd", "even" or "input" */
     int shaft;
@@ -268,6 +268,10 @@ typedef struct gm_path_part {
     gm_path_gear neutral; /* number 0: what is locked in neutral */
     int has_neutral;
 } gm_path_part;
+
+/** Whether two locks are the same part, and two gears lock the same parts. */
+int gm_same_lock(const gm_lock *a, const gm_lock *b);
+int gm_same_locks(const gm_path_gear *a, const gm_path_gear *b);
 
 /** Number of a path's rest gear: 0, or its only gear. */
 int gm_path_rest_gear(const gm_path_part *path);

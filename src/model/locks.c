@@ -7,6 +7,20 @@
 #include <math.h>
 #include <stddef.h>
 
+int gm_same_lock(const gm_lock *a, const gm_lock *b)
+{
+    return a->is_clutch == b->is_clutch && a->index == b->index;
+}
+
+int gm_same_locks(const gm_path_gear *a, const gm_path_gear *b)
+{
+    int found = 0;
+    for (int i = 0; i < a->n_locks; i++)
+        for (int k = 0; k < b->n_locks; k++)
+            found += gm_same_lock(&a->locks[i], &b->locks[k]);
+    return found == a->n_locks && a->n_locks == b->n_locks;
+}
+
 int gm_path_rest_gear(const gm_path_part *path)
 {
     return path->has_neutral ? 0 : path->gears[0].number;

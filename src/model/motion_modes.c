@@ -32,7 +32,7 @@ static int needs(const gm_motion *m, int lock, int p, int number)
     const gm_path_gear *g = gm_path_gear_of(&m->gearset->description->paths[p], number);
     const gm_lock *what = &m->locks[lock].what;
     for (int i = 0; g && i < g->n_locks; i++)
-        if (g->locks[i].is_clutch == what->is_clutch && g->locks[i].index == what->index)
+        if (gm_same_lock(&g->locks[i], what))
             return 1;
     return 0;
 }

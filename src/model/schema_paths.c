@@ -80,7 +80,8 @@ static const gm_field path_gear_fields[] = {
 static const gm_section path_gear_section = {
     .title = "gears", .word = "gear",
     .help = "Gears of a path by number: -1 reverse, 1 and up forward. Number 0 says what "
-            "stays locked in neutral; without it nothing does.",
+            "stays locked in neutral; without it nothing does. A path with one gear that "
+            "locks the same as neutral, as a rule [], has no neutral.",
     .fields = path_gear_fields, .size = sizeof(gm_path_gear), .key = GM_KEY_INTEGER,
     .label = offsetof(gm_path_gear, number), .line = offsetof(gm_path_gear, line),
     .low = -1, .high = 30};
