@@ -79,7 +79,7 @@ static const gm_element_loss *element(const gm_element_loss *losses, int n,
 
 /* Torque T on the sun: each of three planets gets F_bt = T / (3 r_b) from sun and ring,
  * which push its pin with 2 F_bt cos(alpha) tangentially (their radial parts cancel);
- * outwards pulls m w_c^2 r. Sun, ring and carrier get nothing across, but their weight. */
+ * outwards pulls m w_c^2 r. Sun, ring and carrier get nothing across but weight. */
 static void loads_by_hand(void **state)
 {
     (void)state;
