@@ -2,11 +2,13 @@
  *
  * One steady point of the FMU: reset; gears, start speeds of the independent shafts and
  * torques; initialise; read. The output torque given is the detailed gearset's, so that
- * the FMU is as good as unaccelerated and the transmitted torque is the flange's.
+ * the FMU is as good as unaccelerated and the transmitted torque is the flange's. In
+ * fidelity rigid: lash loses the same in steady motion, but would have to wind up first.
  */
 #include "fmu_probe.h"
 
 #include "base/alloc.h"
+#include "core/gm_reduced.h"
 
 #include <stdio.h>
 
@@ -21,7 +23,7 @@ struct gm_fmu_probe {
     gm_fmu *fmu;
     int n_paths;
     path_variables path[GM_MAX_INPUT_PATHS];
-    unsigned output_tau, output_w_start, output_loss_torque, loss_power;
+    unsigned fidelity, output_tau, output_w_start, output_loss_torque, loss_power;
 };
 
 static gm_status find(const gm_fmu *fmu, const char *path, const char *variable,
@@ -58,6 +60,8 @@ static gm_status find_output(gm_fmu_probe *probe, gm_error *error)
         status = find(fmu, "output", "loss_torque", &probe->output_loss_torque, error);
     if (status == GM_OK)
         status = find(fmu, "", "loss_power", &probe->loss_power, error);
+    if (status == GM_OK)
+        status = find(fmu, "", "fidelity", &probe->fidelity, error);
     return status;
 }
 
@@ -124,6 +128,8 @@ static gm_status set_point(gm_fmu_probe *probe, const gm_steady_point *point,
                            double output_torque, gm_error *error)
 {
     gm_status status = gm_fmu_reset(probe->fmu, error);
+    if (status == GM_OK)
+        status = gm_fmu_set_integer(probe->fmu, probe->fidelity, GM_RIGID, error);
     if (status == GM_OK)
         status =
             gm_fmu_set_real(probe->fmu, probe->output_w_start, point->speed[0], error);

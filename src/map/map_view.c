@@ -257,6 +257,57 @@ static gm_status build_configurations(const builder *b)
     return status;
 }
 
+static double value_at(const gm_table1 *t, double x)
+{
+    gm_cell1 cell = {0};
+    return gm_table1_at(t, 1, &cell, x).value;
+}
+
+/* What the pins of a configuration take from the output at w_o in direction d. */
+static double pins_of(const gm_reduced_map *reduced, const gm_configuration *c, int d,
+                      double w_o)
+{
+    double sum = 0.0;
+    for (int p = 0; p < reduced->n_paths; p++) {
+        if (c->gear[p] < 0)
+            continue;
+        const gm_gear *gear = &reduced->path[p].gears[c->gear[p]];
+        double r = fabs(gear->ratio);
+        sum += r * value_at(&gear->pin[gear->ratio < 0.0 ? 1 - d : d], r * w_o);
+    }
+    return sum;
+}
+
+/* A gear's pin must leave the output a loss in every configuration, P - sum |r| pin >= 0:
+ * a gearset's does by itself, but a map may hold anything. */
+static void limit_pin(const builder *b, int p, int g, int d)
+{
+    const gm_reduced_map *reduced = &b->view->reduced;
+    const gm_gear *gear = &reduced->path[p].gears[g];
+    const gm_axis *x = &gear->pin[d].x;
+    gm_real *value = b->view->pins[p] + (gear->pin[d].value - b->view->pins[p]);
+    const int d_o = gear->ratio < 0.0 ? 1 - d : d;
+    for (int i = 0; i < x->n; i++)
+        for (int c = 0; c < reduced->n_configurations; c++) {
+            const gm_configuration *at = &reduced->configurations[c];
+            double w_o = x->x[i] / fabs(gear->ratio);
+            if (at->gear[p] != g)
+                continue;
+            double most = value_at(&at->parasitic[d_o], w_o);
+            double sum = pins_of(reduced, at, d_o, w_o);
+            if (sum > most)
+                value[i] *= fmax(0.0, most) / sum;
+        }
+}
+
+static void limit_pins(const builder *b)
+{
+    for (int p = 0; p < b->view->reduced.n_paths; p++)
+        for (int g = 0; g < b->view->reduced.path[p].n_gears; g++)
+            for (int d = 0; d < 2; d++)
+                limit_pin(b, p, g, d);
+}
+
 static gm_status build(const builder *b)
 {
     gm_reduced_map *reduced = &b->view->reduced;
@@ -270,7 +321,11 @@ static gm_status build(const builder *b)
         reduced->coupling = table1_of(coupling);
     for (int p = 0; status == GM_OK && p < reduced->n_paths; p++)
         status = build_path(b, p);
-    return status == GM_OK ? build_configurations(b) : status;
+    if (status == GM_OK)
+        status = build_configurations(b);
+    if (status == GM_OK)
+        limit_pins(b);
+    return status;
 }
 
 gm_status gm_map_view_create(const gm_map *map, gm_map_view **view, gm_error *error)

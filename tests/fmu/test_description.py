@@ -169,6 +169,7 @@ POINTS = [  # gears and speed at the start, torques
     {"odd.gear": 3, "odd.tau": -380.0, "output.w_start": 100.0, "output.tau": 2300.0},
 ]
 TWISTS = {"fidelity": 2, "odd.twist": 3.1e-3, "even.twist": -3.3e-3}
+POINTS = [{"fidelity": 1, **p} for p in POINTS]
 POINTS += [{**p, **TWISTS} for p in POINTS[:5]]
 POINTS += [
     # two springs against each other, the output held
@@ -177,7 +178,8 @@ POINTS += [
     # outside the map if rigid
     {"odd.gear": 3, "odd.tau": 900.0, "output.w_start": 50.0, **TWISTS},
 ]
-CHANGES = {"twist": [1e-3, 1.0], "fidelity": [1], "tau": [7.0, 1e4], "gear": [0, 1, 2, 3, -1, 9], "w_start": [5.0, -20.0, 300.0],
+CHANGES = {"twist": [1e-3, 1.0], "fidelity": [1], "tau": [7.0, 1e4],
+           "gear": [0, 1, 2, 3, -1, 9], "w_start": [5.0, -20.0, 300.0],
            "loss_scale": [1.5], "oil_temperature": [20.0], "sync_torque": [3.0]}
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 OUTPUTS = ["output.w", "output.phi", "odd.phi", "even.phi", "odd.w", "even.w", "work",
-           "loss_energy", "kinetic_energy", "odd.state", "even.state", "out_of_map"]
+           "loss_energy", "kinetic_energy", "elastic_energy", "odd.state", "even.state", "out_of_map"]
 STOP = 18.0
 
 
@@ -26,12 +26,12 @@ def command(t, w):
             "output.tau": load if t < 9.0 else max(-300.0, -100.0 * w) - 1.5}
 
 
-def drive(two, host, h=0.001):
+def drive(two, host, fidelity, h=0.001):
     n = round(STOP / h)
     names = [*OUTPUTS, "odd.tau", "even.tau", "output.tau"]
     record = {name: np.zeros(n + 1) for name in names}
     with host(two) as instance:
-        instance.start(command(0.0, 0.0))
+        instance.start({**command(0.0, 0.0), "fidelity": fidelity})
         for i in range(n + 1):
             for name in OUTPUTS:
                 record[name][i] = instance.get(name)
@@ -45,21 +45,33 @@ def drive(two, host, h=0.001):
     return record
 
 
+@pytest.fixture(scope="module", params=[1, 2], ids=["rigid", "lash"])
+def fidelity(request):
+    return request.param
+
+
 @pytest.fixture(scope="module")
-def run(two, host):
-    return drive(two, host)
+def run(two, host, fidelity):
+    return drive(two, host, fidelity)
 
 
-def test_drives_shifts_and_stops(run):
+@pytest.fixture
+def same(fidelity):
+    """How near engaged paths are to their ratio: in lash, what a slip of the twist is."""
+    return 1e-12 if fidelity == 1 else 1e-5
+
+
+def test_drives_shifts_and_stops(run, same):
     def at(seconds, name):
         return run[name][round(seconds / 0.001)]
 
     assert at(2.9, "output.w") > 20
-    assert at(2.9, "odd.w") == pytest.approx(15 * at(2.9, "output.w"), rel=1e-12)
+    assert at(2.9, "odd.w") == pytest.approx(15 * at(2.9, "output.w"), rel=same)
     assert at(2.9, "even.state") == 2 and at(2.9, "odd.state") == 2  # preselected
-    assert at(5.9, "even.w") == pytest.approx((9 + 1 / 3) * at(5.9, "output.w"), rel=1e-12)
+    assert at(5.9, "even.w") == pytest.approx((9 + 1 / 3) * at(5.9, "output.w"),
+                                               rel=same)
     assert at(5.9, "odd.state") == 2
-    assert at(8.9, "odd.w") == pytest.approx(6 * at(8.9, "output.w"), rel=1e-12)
+    assert at(8.9, "odd.w") == pytest.approx(6 * at(8.9, "output.w"), rel=same)
     assert at(8.9, "even.state") == 0 and at(8.9, "output.w") > 50
     assert set(run["even.state"]) == {0, 1, 2}  # the cone took its time
     assert not run["out_of_map"].any()
@@ -72,8 +84,8 @@ def test_stands_without_creep(run):
 
 
 def test_energy_account_closes(run):
-    balance = run["work"] - run["loss_energy"] - run["kinetic_energy"]
-    assert np.ptp(balance) < 1e-9 * np.abs(run["work"]).max()
+    stored = run["kinetic_energy"] + run["elastic_energy"]
+    assert np.ptp(run["work"] - run["loss_energy"] - stored) < 1e-9 * np.abs(run["work"]).max()
     assert np.all(np.diff(run["loss_energy"]) >= 0)
 
 
@@ -87,18 +99,18 @@ def test_work_is_what_the_flanges_do(run):
     assert abs(outside - run["work"][-1]) < 1e-10 * through
 
 
-def test_halved_steps_agree_better(two, host, run):
+def test_halved_steps_agree_better(two, host, run, fidelity):
     """Implicit midpoint with located events; the torques here are held over a step, which
     is of first order: halving the step halves the error."""
     errors = []
     for h in (0.02, 0.01):
-        w = drive(two, host, h)["output.w"]
+        w = drive(two, host, fidelity, h)["output.w"]
         errors.append(np.abs(w - run["output.w"][::round(h / 0.001)]).max())
     assert errors[1] < 0.6 * errors[0]
     assert errors[0] < 0.02 * run["output.w"].max()
 
 
-def test_fmpy_drives_away_by_itself(two):
+def test_fmpy_drives_away_by_itself(two, fidelity, same):
     """The same drive up to 9 s as an input signal of fmpy's own master."""
     t = np.arange(0.0, 9.0, 0.01)
     names = [("odd.tau", float), ("even.tau", float), ("output.tau", float),
@@ -109,16 +121,17 @@ def test_fmpy_drives_away_by_itself(two):
         for name, value in command(seconds, 0.0).items():
             signal[name][i] = value
     r = fmpy.simulate_fmu(str(two.file), stop_time=8.9, step_size=0.01, output_interval=0.01,
-                          input=signal, output=OUTPUTS)
+                          input=signal, output=OUTPUTS,
+                          start_values={"fidelity": fidelity})
     assert r["output.w"][-1] > 50
-    assert r["odd.w"][-1] == pytest.approx(6 * r["output.w"][-1], rel=1e-12)
-    balance = r["work"] - r["loss_energy"] - r["kinetic_energy"]
-    assert np.ptp(balance) < 1e-9 * np.abs(r["work"]).max()
+    assert r["odd.w"][-1] == pytest.approx(6 * r["output.w"][-1], rel=same)
+    stored = r["kinetic_energy"] + r["elastic_energy"]
+    assert np.ptp(r["work"] - r["loss_energy"] - stored) < 1e-9 * np.abs(r["work"]).max()
 
 
 def test_one_path_turns_by_its_ratio(one):
     r = fmpy.simulate_fmu(str(one.file), stop_time=1.0, step_size=0.01,
-                          start_values={"input.gear": 1, "input.tau": -20.0},
+                          start_values={"input.gear": 1, "input.tau": -20.0, "fidelity": 1},
                           output=["input.w", "output.w"])
     assert r["output.w"][-1] > 5
     assert np.allclose(r["input.w"], -9.0 * r["output.w"], rtol=1e-13, atol=0)

@@ -113,11 +113,15 @@ static double law_of_drag(double w, double w_o)
     return (w < 0 ? -0.4 : 0.4) + 1e-3 * (w - 2.0 * w_o);
 }
 
-static void set_drag_by_law(gm_map *map)
+/* parasitic: P, the same everywhere */
+static void set_drag_by_law(gm_map *map, double parasitic)
 {
     for (int t = 0; t < map->n_tables; t++) {
         gm_map_table *table = &map->tables[t];
         const int *dir = table->key.direction;
+        if (table->key.symbol == GM_PARASITIC)
+            for (int i = 0; i < gm_map_table_size(table); i++)
+                table->value[i] = parasitic;
         if (table->key.path != 0)
             continue;
         for (int i = 0; i < gm_map_table_size(table); i++)
@@ -136,7 +140,7 @@ static void what_brakes_the_input_side_follows_from_the_drag(void **state)
 {
     (void)state;
     gm_map *map = fixture_map(&fixture_full);
-    set_drag_by_law(map);
+    set_drag_by_law(map, 1e3);
     map->paths[0].gears[1].ratio = fixture_line[0][0] * (1 + 1e-13);
     gm_map_view *view = view_of(map);
     const gm_path *path = &gm_map_view_reduced(view)->path[0];
@@ -161,6 +165,29 @@ static void what_brakes_the_input_side_follows_from_the_drag(void **state)
                                  (s * law_of_drag(w, w / gear->ratio) + jumps)) < 1e-12);
             }
         }
+    gm_map_view_destroy(view);
+    gm_map_destroy(map);
+}
+
+/* A map may hold less than |r| pin as P: the output must be left a loss. */
+static void what_brakes_the_input_side_leaves_the_output_a_loss(void **state)
+{
+    (void)state;
+    gm_map *map = fixture_map(&fixture_full);
+    set_drag_by_law(map, 0.5);
+    gm_map_view *view = view_of(map);
+    const gm_reduced_map *reduced = gm_map_view_reduced(view);
+    for (int c = 0; c < reduced->n_configurations; c++) {
+        double sum = 0.0;
+        for (int p = 0; p < 2; p++) {
+            int g = reduced->configurations[c].gear[p];
+            if (g >= 0) {
+                const gm_gear *gear = &reduced->path[p].gears[g];
+                sum += fabs(gear->ratio) * gear->pin[gear->ratio < 0].value[0];
+            }
+        }
+        assert_true(sum <= 0.5 * (1 + 1e-12));
+    }
     gm_map_view_destroy(view);
     gm_map_destroy(map);
 }
@@ -284,6 +311,7 @@ int main(void)
         cmocka_unit_test(shows_drag_and_reaction_by_both_directions),
         cmocka_unit_test(shows_lines_that_jump),
         cmocka_unit_test(what_brakes_the_input_side_follows_from_the_drag),
+        cmocka_unit_test(what_brakes_the_input_side_leaves_the_output_a_loss),
         cmocka_unit_test(numbers_configurations_by_both_gears),
         cmocka_unit_test(optional_tables_may_be_missing),
         cmocka_unit_test(missing_table_is_named),
