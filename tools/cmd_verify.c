@@ -37,6 +37,9 @@ static const gm_option options[] = {
      .help = "drive one vehicle over a cycle with both: ece15, urban (4 x ece15), eudc, "
              "nedc, wltc3b or FILE.csv with columns time_s, speed_km_h and optionally "
              "gear and grade_percent"},
+    {.kind = GM_OPTION_TEXT, .name = "vehicle", .value = "FILE.yaml",
+     .offset = offsetof(arguments, drive.vehicle),
+     .help = "with --cycle: the vehicle; default: a C-segment car (gearmap help vehicle)"},
     {.kind = GM_OPTION_TEXT, .name = "fidelity", .value = "NAME", .fallback = "both",
      .offset = offsetof(arguments, drive.fidelity),
      .help = "with --cycle: rigid, lash or both"},
@@ -162,6 +165,8 @@ static const char *usage_problem(const arguments *a)
         return "verify needs --steady, --cycle CYCLE or both";
     if (a->drive.trace && !a->drive.cycle)
         return "--trace needs --cycle";
+    if (a->drive.vehicle && !a->drive.cycle)
+        return "--vehicle needs --cycle";
     if (strcmp(fidelity, "rigid") != 0 && strcmp(fidelity, "lash") != 0 &&
         strcmp(fidelity, "both") != 0)
         return "--fidelity is rigid, lash or both";

@@ -157,7 +157,7 @@ gm_status gm_stage_cycle(const gm_gearset_file *file, const char *fmu,
                          const gm_cycle_settings *settings, gm_cycle_stage *stage,
                          gm_error *error)
 {
-    const gm_vehicle vehicle = gm_vehicle_reference();
+    gm_vehicle vehicle = gm_vehicle_reference();
     gm_transmission transmission;
     double forward = 1.0;
     memset(stage, 0, sizeof *stage);
@@ -166,6 +166,8 @@ gm_status gm_stage_cycle(const gm_gearset_file *file, const char *fmu,
     for (int p = 0; p < stage->n_paths; p++)
         stage->path_name[p] = file->plant->info.path[p].name;
     gm_status status = open_cycle(settings->cycle, &stage->cycle, error);
+    if (status == GM_OK && settings->vehicle)
+        status = gm_vehicle_read(settings->vehicle, &vehicle, error);
     if (status == GM_OK)
         status = list_gears(file->plant, &transmission, &forward, error);
     if (status == GM_OK)

@@ -15,6 +15,7 @@ enum { GM_CYCLE_FIDELITIES = 2 };
 
 typedef struct gm_cycle_settings {
     const char *cycle;    /* name of a built-in one, or of a file *.csv */
+    const char *vehicle;  /* file; NULL: the reference */
     const char *fidelity; /* "rigid", "lash" or "both" */
     double tolerance;     /* relative error of a step */
     const char *trace;    /* file of the drives over time; NULL: none */

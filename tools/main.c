@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "model/gm_description.h"
+#include "vehicle/gm_vehicle.h"
 
 #include <fcntl.h>
 #include <stdio.h>
@@ -30,7 +31,8 @@ static void print_overview(FILE *out)
         fprintf(out, "  %-10s%s\n", commands[i]->name, commands[i]->summary);
     fputs(
         "  help      print the help of a command (gearmap help COMMAND)\n"
-        "            or the format of descriptions (gearmap help format)\n\n"
+        "            or a file: of descriptions (gearmap help format), of vehicles\n"
+        "            (gearmap help vehicle)\n\n"
         "Results go to the standard output (--json for machines), words to the standard "
         "error.\nExit code: 0 done, 1 failed, 2 wrong usage.\n",
         out);
@@ -124,6 +126,10 @@ static int help(int argc, char **argv)
     }
     if (strcmp(argv[0], "format") == 0) {
         gm_description_help(write_text, stdout);
+        return GM_EXIT_DONE;
+    }
+    if (strcmp(argv[0], "vehicle") == 0) {
+        gm_vehicle_help(write_text, stdout);
         return GM_EXIT_DONE;
     }
     const gm_command *command = find_command(argv[0]);

@@ -1,16 +1,13 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * Reading a description: bytes, tree, fields, order, checks; and its life.
+ * Reading a description: tree, fields, order, checks; and its life.
  */
 #include "base/alloc.h"
-#include "base/sha256.h"
-#include "base/text.h"
 #include "model/bearing.h"
 #include "model/check.h"
 #include "model/description_fields.h"
 #include "model/description_yaml.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -18,7 +15,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MAX_BYTES ((size_t)4 * 1024 * 1024) /* the example has 12 kB */
 #define SHOWN_PATH ((size_t)200)
 
 static gm_status fail_va(const char *file, int line, const char *element,
@@ -53,75 +49,6 @@ gm_status gm_part_fail(const gm_description *d, const char *word, const gm_label
     (void)fail_va(d->file, part->line, element, GM_ERR_MODEL, error, format, args);
     va_end(args);
     return GM_ERR_MODEL;
-}
-
-/* Bytes of the UTF-8 character at s, 0 if it is none or a control character. */
-static size_t character_length(const char *s, size_t left)
-{
-    bool control = ((unsigned char)*s < 0x20 || *s == 0x7f) && !strchr("\t\n\r", *s);
-    return control || *s == '\0' ? 0 : gm_text_utf8_length(s, left);
-}
-
-static gm_status check_text(const char *path, const char *bytes, size_t size,
-                            gm_error *error)
-{
-    int line = 1;
-    for (size_t i = 0; i < size;) {
-        size_t n = character_length(bytes + i, size - i);
-        if (n == 0)
-            return gm_description_fail(path, line, "", GM_ERR_FORMAT, error,
-                                       "not a text file; found the byte 0x%02x, expected "
-                                       "YAML in UTF-8",
-                                       (unsigned char)bytes[i]);
-        line += bytes[i] == '\n';
-        i += n;
-    }
-    return GM_OK;
-}
-
-static gm_status read_stream(const char *path, FILE *file, char *bytes, size_t *size,
-                             gm_error *error)
-{
-    *size = fread(bytes, 1, MAX_BYTES + 1, file);
-    if (ferror(file))
-        return gm_fail(error, GM_ERR_IO, "%s: cannot be read: %s", path, strerror(errno));
-    if (*size > MAX_BYTES)
-        return gm_fail(error, GM_ERR_FORMAT,
-                       "%s: too large; a description has at most %zu bytes", path,
-                       MAX_BYTES);
-    bytes[*size] = '\0';
-    return check_text(path, bytes, *size, error);
-}
-
-/* The whole file in memory; *bytes is the caller's. */
-static gm_status read_bytes(const char *path, char **bytes, size_t *size, gm_error *error)
-{
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        return gm_fail(error, GM_ERR_IO, "%s: cannot be opened: %s", path,
-                       strerror(errno));
-    char *buffer = gm_calloc(MAX_BYTES + 2, 1);
-    gm_status status = buffer ? read_stream(path, file, buffer, size, error)
-                              : gm_fail(error, GM_ERR_MEMORY, "out of memory");
-    (void)fclose(file);
-    if (status != GM_OK) {
-        gm_free(buffer);
-        return status;
-    }
-    *bytes = buffer;
-    return GM_OK;
-}
-
-static gm_status hash_bytes(const char *bytes, size_t size, char text[GM_SHA256_TEXT],
-                            gm_error *error)
-{
-    gm_sha256 *sum = gm_sha256_create();
-    if (!sum)
-        return gm_fail(error, GM_ERR_MEMORY, "out of memory");
-    gm_sha256_bytes(sum, bytes, size);
-    gm_sha256_finish(sum, text);
-    gm_sha256_destroy(sum);
-    return GM_OK;
 }
 
 static int by_number(const void *a, const void *b)
@@ -232,18 +159,12 @@ static gm_status complete(gm_description *d, gm_error *error)
 
 static gm_status read_into(const char *path, gm_description *d, gm_error *error)
 {
-    char *bytes = NULL;
-    size_t size = 0;
     gm_yaml *tree = NULL;
     d->file = gm_strdup(path);
-    gm_status status = d->file ? read_bytes(path, &bytes, &size, error)
+    gm_status status = d->file ? gm_yaml_read(path, d->sha256, &tree, error)
                                : gm_fail(error, GM_ERR_MEMORY, "out of memory");
     if (status == GM_OK)
-        status = hash_bytes(bytes, size, d->sha256, error);
-    if (status == GM_OK)
-        status = gm_yaml_parse(path, bytes, size, &tree, error);
-    if (status == GM_OK)
-        status = gm_description_fields(d, tree, error);
+        status = gm_fields_read(path, gm_schema_root(), tree, d, error);
     if (status == GM_OK) {
         arrange(d);
         complete_clutches(d);
@@ -252,7 +173,6 @@ static gm_status read_into(const char *path, gm_description *d, gm_error *error)
     if (status == GM_OK)
         status = gm_check_description(d, error);
     gm_yaml_destroy(tree);
-    gm_free(bytes);
     return status;
 }
 

@@ -46,11 +46,10 @@ static gm_status unknown_key(const gm_field_reader *r, const gm_place *p,
     int near = without_unit(entry->key, keys, n);
     if (near < 0)
         near = gm_text_nearest(entry->key, keys, n);
-    return gm_description_fail(r->d->file, entry->line, p->element, GM_ERR_FORMAT,
-                               r->error, "unknown key %s%s%s%s",
-                               gm_yaml_show_text(entry->key, '\'', shown),
-                               near >= 0 ? "; did you mean '" : "",
-                               near >= 0 ? keys[near] : "", near >= 0 ? "'?" : "");
+    return gm_description_fail(
+        r->file, entry->line, p->element, GM_ERR_FORMAT, r->error, "unknown key %s%s%s%s",
+        gm_yaml_show_text(entry->key, '\'', shown), near >= 0 ? "; did you mean '" : "",
+        near >= 0 ? keys[near] : "", near >= 0 ? "'?" : "");
 }
 
 static void enter(gm_place *inner, const gm_place *outer, const gm_section *section)
@@ -133,7 +132,7 @@ static gm_status read_absent(const gm_field_reader *r, gm_slot *s)
     if (s->field->need == GM_NEED_VALUE) {
         char expected[EXPECTED];
         gm_schema_expectation(s->field, expected, sizeof expected);
-        return gm_description_fail(r->d->file, s->in->line, s->in->element, GM_ERR_FORMAT,
+        return gm_description_fail(r->file, s->in->line, s->in->element, GM_ERR_FORMAT,
                                    r->error, "%s is missing; expected %s", s->field->key,
                                    expected);
     }
@@ -170,7 +169,7 @@ static gm_status label_name(const gm_field_reader *r, const gm_place *p,
     gm_label label = {.line = node->line};
     if (!valid_name(node->key))
         return gm_description_fail(
-            r->d->file, node->line, p->element, GM_ERR_FORMAT, r->error,
+            r->file, node->line, p->element, GM_ERR_FORMAT, r->error,
             "the name of a %s must be a letter followed by letters, "
             "digits and _, at most %d, and not housing; found %s",
             section->word, GM_NAME_SIZE - 1, gm_yaml_show_text(node->key, '\'', found));
@@ -187,7 +186,7 @@ static gm_status label_number(const gm_field_reader *r, const gm_place *p,
     if (!gm_text_to_int(node->key, &number) || number < section->low ||
         number > section->high)
         return gm_description_fail(
-            r->d->file, node->line, p->element, GM_ERR_FORMAT, r->error,
+            r->file, node->line, p->element, GM_ERR_FORMAT, r->error,
             "the number of a %s must be a whole number from %.0f to %.0f, found %s",
             section->word, section->low, section->high,
             gm_yaml_show_text(node->key, '\'', found));
@@ -219,9 +218,9 @@ static gm_status declare_items(const gm_field_reader *r, const gm_slot *s)
     if (s->node->kind != kind || s->node->n == 0)
         return gm_slot_wrong(r, s, "");
     if (f->fixed_count && s->node->n > f->fixed_count)
-        return gm_description_fail(
-            r->d->file, s->node->line, s->in->element, GM_ERR_FORMAT, r->error,
-            "%s has at most %d entries, found %d", f->key, f->fixed_count, s->node->n);
+        return gm_description_fail(r->file, s->node->line, s->in->element, GM_ERR_FORMAT,
+                                   r->error, "%s has at most %d entries, found %d",
+                                   f->key, f->fixed_count, s->node->n);
     if (!f->fixed_count) {
         char *items = gm_calloc((size_t)s->node->n, f->section->size);
         if (!items)
@@ -288,7 +287,7 @@ static gm_status check_effect(const gm_field_reader *r, const gm_slot *s)
     const char *word = chosen(s->in, f->only_key);
     if (gm_schema_has_effect(f, word))
         return GM_OK;
-    return gm_description_fail(r->d->file, s->node->line, s->in->element, GM_ERR_FORMAT,
+    return gm_description_fail(r->file, s->node->line, s->in->element, GM_ERR_FORMAT,
                                r->error, "%s has an effect only with %s %s, found %s %s",
                                f->key, f->only_key, f->only_word, f->only_key, word);
 }
@@ -306,8 +305,8 @@ static gm_status read_section(const gm_field_reader *r, const gm_place *p)
     char found[GM_YAML_SHOW];
     gm_status status = GM_OK;
     if (p->node && p->node->kind != GM_YAML_MAPPING)
-        return gm_description_fail(r->d->file, p->line, p->element, GM_ERR_FORMAT,
-                                   r->error, "expected a group of fields, found %s",
+        return gm_description_fail(r->file, p->line, p->element, GM_ERR_FORMAT, r->error,
+                                   "expected a group of fields, found %s",
                                    gm_yaml_show(p->node, found));
     if (p->node)
         status = check_keys(r, p);
@@ -318,10 +317,11 @@ static gm_status read_section(const gm_field_reader *r, const gm_place *p)
     return status;
 }
 
-gm_status gm_description_fields(gm_description *d, const gm_yaml *tree, gm_error *error)
+gm_status gm_fields_read(const char *file, const gm_section *root, const gm_yaml *tree,
+                         void *base, gm_error *error)
 {
-    const gm_field_reader r = {d, error};
-    const gm_place root = {
-        .section = gm_schema_root(), .node = tree, .base = (char *)d, .line = tree->line};
-    return read_section(&r, &root);
+    const gm_field_reader r = {file, root, base, error};
+    const gm_place place = {
+        .section = root, .node = tree, .base = base, .line = tree->line};
+    return read_section(&r, &place);
 }

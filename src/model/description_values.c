@@ -23,7 +23,7 @@ gm_status gm_slot_wrong(const gm_field_reader *r, const gm_slot *s, const char *
 {
     char expected[EXPECTED], found[GM_YAML_SHOW];
     gm_schema_expectation(s->field, expected, sizeof expected);
-    return gm_description_fail(r->d->file, s->node->line, s->in->element, GM_ERR_FORMAT,
+    return gm_description_fail(r->file, s->node->line, s->in->element, GM_ERR_FORMAT,
                                r->error, "%s must be %s, found %s%s", s->field->key,
                                expected, gm_yaml_show(s->node, found), hint);
 }
@@ -148,9 +148,8 @@ typedef struct collection {
 static collection find_collection(const gm_field_reader *r, const gm_section *section)
 {
     size_t offset = 0;
-    const gm_field *field =
-        gm_schema_find(gm_schema_root(), section->collection, &offset);
-    const char *d = (const char *)r->d;
+    const gm_field *field = gm_schema_find(r->root, section->collection, &offset);
+    const char *d = r->base;
     const char *items;
     collection c = {.size = section->size};
     memcpy(&items, d + offset, sizeof items);

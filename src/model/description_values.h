@@ -13,7 +13,9 @@
 enum { GM_ELEMENT_SIZE = 192 };
 
 typedef struct gm_field_reader {
-    gm_description *d;
+    const char *file;
+    const gm_section *root; /* whose collections references name */
+    char *base;             /* structure of the root */
     gm_error *error;
 } gm_field_reader;
 

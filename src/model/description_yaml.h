@@ -8,6 +8,7 @@
 #define DESCRIPTION_YAML_H
 
 #include "base/gm_status.h"
+#include "base/sha256.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -28,6 +29,11 @@ typedef struct gm_yaml {
  *  (gm_yaml_destroy). GM_ERR_FORMAT with a sentence "file:line: ...", GM_ERR_MEMORY. */
 GM_NODISCARD gm_status gm_yaml_parse(const char *file, const char *bytes, size_t size,
                                      gm_yaml **tree, gm_error *error);
+
+/** Read and parse a file of UTF-8 text; sha256: hash of its bytes. Like gm_yaml_parse, and
+ *  GM_ERR_IO. */
+GM_NODISCARD gm_status gm_yaml_read(const char *path, char sha256[GM_SHA256_TEXT],
+                                    gm_yaml **tree, gm_error *error);
 void gm_yaml_destroy(gm_yaml *tree);
 
 /** The entry of a mapping, or NULL. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * The description file's schema: one table per section, from which reading, unknown keys,
- * types, units, ranges, defaults and the reference text are derived.
+ * Schema of a file (the description, a vehicle): one table per section, from which
+ * reading, unknown keys, types, units, ranges, defaults and the reference text are derived.
  *
  * The unit of a number is the end of its key (width_mm, viscosity_40_mm2_s), so that key,
  * unit and factor cannot disagree.
@@ -90,7 +90,7 @@ typedef struct gm_unit {
     double offset, factor, divisor;
 } gm_unit;
 
-/** The whole file. */
+/** The description file. */
 const gm_section *gm_schema_root(void);
 
 /** Unit of a number's key; the one without suffix for pure numbers. Never NULL. */
@@ -109,6 +109,10 @@ int gm_schema_keys(const gm_section *section, const char **keys, int max);
 
 /** Whether a field with only_key has an effect beside that choice. */
 bool gm_schema_has_effect(const gm_field *field, const char *choice);
+
+/** Reference of a file format: calls write with successive pieces of Markdown text. */
+void gm_schema_help(const gm_section *root,
+                    void (*write)(void *context, const char *text), void *context);
 
 /** What the field must be, such as "a number in mm greater than 0". */
 void gm_schema_expectation(const gm_field *field, char *text, size_t size);

@@ -112,6 +112,7 @@ void gm_schema_expectation(const gm_field *field, char *text, size_t size)
 }
 
 typedef struct writer {
+    const gm_section *root;
     void (*write)(void *context, const char *text);
     void *context;
 } writer;
@@ -156,15 +157,20 @@ static void write_section(const writer *w, const char *path, const gm_section *s
         if (f->type != GM_FIELD_GROUP && f->type != GM_FIELD_ITEMS)
             continue;
         char inner[128];
-        (void)snprintf(inner, sizeof inner, "%s%s%s",
-                       section == gm_schema_root() ? "" : path,
-                       section == gm_schema_root() ? "" : " / ", f->key);
+        (void)snprintf(inner, sizeof inner, "%s%s%s", section == w->root ? "" : path,
+                       section == w->root ? "" : " / ", f->key);
         write_section(w, inner, f->section);
     }
 }
 
+void gm_schema_help(const gm_section *root,
+                    void (*write)(void *context, const char *text), void *context)
+{
+    const writer w = {root, write, context};
+    write_section(&w, "The file", root);
+}
+
 void gm_description_help(void (*write)(void *context, const char *text), void *context)
 {
-    const writer w = {write, context};
-    write_section(&w, "The file", gm_schema_root());
+    gm_schema_help(gm_schema_root(), write, context);
 }

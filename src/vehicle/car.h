@@ -16,7 +16,10 @@ enum {
     GM_CAR_FLYWHEEL, /* twist */
     GM_CAR_DRUM_SPEED,
     GM_CAR_SHAFTS, /* twist */
+    GM_CAR_WHEELS, /* speed; with tyres that do not slip it only follows the car's */
     GM_CAR_SPEED,
+    GM_CAR_MOUNT, /* roll angle of engine and gearbox; rigid mounts: at rest */
+    GM_CAR_MOUNT_SPEED,
     GM_CAR_INTEGRAL, /* of the driver */
     GM_CAR_DYNAMIC,  /* how many states act back on others */
     /* accounts: integrals that nothing depends on */
@@ -46,7 +49,10 @@ typedef struct gm_car_point {
     double flywheel; /* N.m */
     double shafts;   /* N.m, driving positive */
     double road, road_slope;
-    double rise, hill;            /* rise over way; N */
+    double rise, hill; /* rise over way; N */
+    double hub;        /* speed of the wheels, rad/s */
+    double tyre, tyre_by_wheel,
+        tyre_by_v;                /* force on the car, N; derivatives by speeds */
     double speed[GM_MAX_FLANGES]; /* of the gearset; the output's in driving direction */
 } gm_car_point;
 

@@ -10,6 +10,14 @@
  *   (m + J_w / r2) dv/dt = T_s / r - rolling - drag - hill - brake
  *   hill = m g sin(atan(grade))     grade: the road's and, added to it, the cycle's
  *
+ * Two options. Tyres that slip let the wheels turn apart from the car:
+ *   F = F_max tanh(C s / F_max)    s = (w_w r - v) / sqrt(v2 + v0^2), v0 = 1 m/s
+ *   J_w dw_w/dt = T_s - r (F + brake)     m dv/dt = F - rolling - drag - hill
+ * Mounts that give way let engine and gearbox roll (transverse: about the axis of the
+ * output) by the reaction of the driveshafts, whose twist then grows with w_o + w_m too:
+ *   J_m dw_m/dt = -T_s - k_m phi_m - d_m w_m
+ * The inertia of what turns inside counts in J_m; its change of spin by w_m is left out.
+ *
  * w_o counts positive where the car drives forward in a forward gear.
  */
 #ifndef GM_VEHICLE_H
@@ -24,21 +32,31 @@ extern "C" {
 #define GM_VEHICLE_MAX_POINTS 16
 
 /** Full-load torque over speed: linear between points, constant beyond. */
+typedef struct gm_full_load_point {
+    double speed, torque; /* rad/s, increasing; N.m */
+    int line;             /* of the file, if it is from one */
+} gm_full_load_point;
+
 typedef struct gm_full_load {
     int n;
-    double speed[GM_VEHICLE_MAX_POINTS];  /* rad/s, increasing */
-    double torque[GM_VEHICLE_MAX_POINTS]; /* N.m */
+    gm_full_load_point point[GM_VEHICLE_MAX_POINTS];
 } gm_full_load;
 
 typedef struct gm_vehicle {
     double mass;                /* kg */
     double wheel_radius;        /* dynamic, m */
     double wheel_inertia;       /* all wheels, kg.m2 */
+    double tyre_stiffness;      /* N for a slip of 1, small slips; 0: tyres do not slip */
+    double tyre_force_max;      /* N, of all driven tyres */
     double rolling_coefficient; /* smoothed at standstill with tanh(v / 0.1 m/s) */
     double drag_area;           /* c_d A, m2 */
     double air_density;         /* kg/m3 */
     double shaft_stiffness;     /* both driveshafts at the output flange, N.m/rad */
     double shaft_damping;       /* N.m.s/rad */
+    double mount_inertia;       /* of engine and gearbox about the roll axis, kg.m2;
+                                   0: they are mounted rigidly */
+    double mount_stiffness;     /* N.m/rad */
+    double mount_damping;       /* N.m.s/rad */
     double engine_inertia;      /* with the primary side of the flywheel, kg.m2 */
     double flywheel_stiffness;  /* N.m/rad */
     double flywheel_damping;    /* N.m.s/rad */
@@ -66,6 +84,15 @@ typedef struct gm_vehicle {
  *  Golf 1.5 TSI (NREL FASTSim vehicle database); the rest are engineering assumptions. */
 gm_vehicle gm_vehicle_reference(void);
 
+/** A vehicle from a YAML file (vehicle_file.c; docs/vehicle.md); fields of driver and
+ *  control that it leaves out are those of the reference. GM_ERR_IO, GM_ERR_FORMAT with
+ *  file, line, what was found and expected, GM_ERR_MEMORY; then *vehicle is untouched. */
+GM_NODISCARD gm_status gm_vehicle_read(const char *path, gm_vehicle *vehicle,
+                                       gm_error *error);
+
+/** Reference of that file's format: calls write with successive pieces of Markdown. */
+void gm_vehicle_help(void (*write)(void *context, const char *text), void *context);
+
 /** GM_ERR_ARGUMENT names the field that is not finite, or not positive where it must be.
  */
 GM_NODISCARD gm_status gm_vehicle_check(const gm_vehicle *vehicle, gm_error *error);
@@ -89,6 +116,11 @@ double gm_clutch_capacity(const gm_vehicle *v, double w, double *slope);
 /** Rolling resistance and air drag [N] at speed v [m/s], on the level: the cosine of a
  *  grade of 10 % is 0.995. */
 double gm_road_load(const gm_vehicle *vehicle, double v, double *slope);
+
+/** Force of all driven tyres on the car [N], their surface at speed_wheel, the car at v
+ *  [m/s]. *by_wheel, *by_v: derivatives. Only with tyre_stiffness > 0. */
+double gm_tyre_force(const gm_vehicle *vehicle, double speed_wheel, double v,
+                     double *by_wheel, double *by_v);
 
 /** Rise over way, the sine of the slope's angle, for a grade, rise over run. */
 double gm_rise(double grade);

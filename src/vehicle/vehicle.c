@@ -6,6 +6,7 @@
 
 #define RPM (3.14159265358979323846 / 30.0)
 #define REST_SPEED 0.1 /* m/s, over which rolling resistance changes its direction */
+#define SLIP_SPEED 1.0 /* m/s, below which slip is reckoned as if at that speed */
 #define REST_OMEGA 5.0 /* rad/s, the same for the engine's drag: it never runs there */
 
 gm_vehicle gm_vehicle_reference(void)
@@ -27,7 +28,7 @@ gm_vehicle gm_vehicle_reference(void)
         .launch_speed = 82.0,
         .launch_gain = 0.04,
         .clutch_torque_max = 300.0,
-        .full_load = {2, {750.0 * RPM, 1500.0 * RPM}, {100.0, 200.0}},
+        .full_load = {2, {{750.0 * RPM, 100.0, 0}, {1500.0 * RPM, 200.0, 0}}},
         .drag_torque = 12.0,
         .drag_per_speed = 0.02,
         .torque_lag = 0.08,
@@ -65,6 +66,11 @@ static const rule rules[] = {
     POSITIVE(mass),
     POSITIVE(wheel_radius),
     NOT_NEGATIVE(wheel_inertia),
+    NOT_NEGATIVE(tyre_stiffness),
+    NOT_NEGATIVE(tyre_force_max),
+    NOT_NEGATIVE(mount_inertia),
+    NOT_NEGATIVE(mount_stiffness),
+    NOT_NEGATIVE(mount_damping),
     NOT_NEGATIVE(rolling_coefficient),
     NOT_NEGATIVE(drag_area),
     NOT_NEGATIVE(air_density),
@@ -100,13 +106,13 @@ static gm_status check_full_load(const gm_full_load *curve, gm_error *error)
                        "the full-load curve has 1 to %d points; found %d",
                        GM_VEHICLE_MAX_POINTS, curve->n);
     for (int i = 0; i < curve->n; i++)
-        if (!isfinite(curve->speed[i]) || !(curve->torque[i] > 0.0) ||
-            !isfinite(curve->torque[i]) ||
-            (i > 0 && !(curve->speed[i] > curve->speed[i - 1])))
+        if (!isfinite(curve->point[i].speed) || !(curve->point[i].torque > 0.0) ||
+            !isfinite(curve->point[i].torque) ||
+            (i > 0 && !(curve->point[i].speed > curve->point[i - 1].speed)))
             return gm_fail(error, GM_ERR_ARGUMENT,
                            "the full-load curve has increasing speeds and positive "
                            "torques; found %g rad/s, %g N.m",
-                           curve->speed[i], curve->torque[i]);
+                           curve->point[i].speed, curve->point[i].torque);
     return GM_OK;
 }
 
@@ -119,6 +125,13 @@ gm_status gm_vehicle_check(const gm_vehicle *vehicle, gm_error *error)
                            rules[i].name, x,
                            rules[i].may_be_zero ? "0 or more" : "more than 0");
     }
+    if (!isfinite(vehicle->grade) || fabs(vehicle->grade) > 1.0)
+        return gm_fail(error, GM_ERR_ARGUMENT,
+                       "grade of the vehicle is %g, must be -1 to 1", vehicle->grade);
+    if (vehicle->tyre_stiffness > 0.0 &&
+        !(vehicle->tyre_force_max > 0.0 && vehicle->wheel_inertia > 0.0))
+        return gm_fail(error, GM_ERR_ARGUMENT,
+                       "tyres that slip need tyre_force_max and wheel_inertia above 0");
     return check_full_load(&vehicle->full_load, error);
 }
 
@@ -127,15 +140,15 @@ gm_status gm_vehicle_check(const gm_vehicle *vehicle, gm_error *error)
 double gm_full_load_torque(const gm_full_load *curve, double w, double *slope)
 {
     *slope = 0.0;
-    if (w <= curve->speed[0])
-        return curve->torque[0];
+    if (w <= curve->point[0].speed)
+        return curve->point[0].torque;
     for (int i = 1; i < curve->n; i++)
-        if (w < curve->speed[i]) {
-            *slope = (curve->torque[i] - curve->torque[i - 1]) /
-                     (curve->speed[i] - curve->speed[i - 1]);
-            return curve->torque[i - 1] + *slope * (w - curve->speed[i - 1]);
+        if (w < curve->point[i].speed) {
+            *slope = (curve->point[i].torque - curve->point[i - 1].torque) /
+                     (curve->point[i].speed - curve->point[i - 1].speed);
+            return curve->point[i - 1].torque + *slope * (w - curve->point[i - 1].speed);
         }
-    return curve->torque[curve->n - 1];
+    return curve->point[curve->n - 1].torque;
 }
 
 double gm_engine_drag(const gm_vehicle *v, double w, double *slope)
@@ -189,4 +202,16 @@ double gm_road_load(const gm_vehicle *vehicle, double v, double *slope)
 double gm_rise(double grade)
 {
     return grade / sqrt(1.0 + grade * grade);
+}
+
+double gm_tyre_force(const gm_vehicle *vehicle, double speed_wheel, double v,
+                     double *by_wheel, double *by_v)
+{
+    double root = sqrt(v * v + SLIP_SPEED * SLIP_SPEED);
+    double slip = (speed_wheel - v) / root;
+    double s = tanh(vehicle->tyre_stiffness * slip / vehicle->tyre_force_max);
+    double by_slip = vehicle->tyre_stiffness * (1.0 - s * s);
+    *by_wheel = by_slip / root;
+    *by_v = -by_slip * (1.0 + slip * v / root) / root;
+    return vehicle->tyre_force_max * s;
 }

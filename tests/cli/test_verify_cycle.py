@@ -5,7 +5,7 @@ import csv
 import math
 
 import pytest
-from conftest import EXAMPLE, fails, gearmap, result_of
+from conftest import EXAMPLE, ROOT, fails, gearmap, result_of
 
 FIGURES = {"engine_speed_rms_rad_s", "vehicle_speed_rms_km_h",
            "output_torque_5Hz_rms_relative", "input_torque_5Hz_rms_relative",
@@ -80,6 +80,26 @@ def test_a_cycle_of_ones_own(example_fmu, tmp_path):
     cycle.write_text("time_s,speed_km_h\n0,0\n5,20 km/h\n")
     assert fails("verify", EXAMPLE, example_fmu, "--cycle", cycle) == (
         f"{cycle}:3: column speed_km_h: found '20 km/h', expected a number")
+
+
+def test_another_vehicle(example_fmu, tmp_path):
+    """A heavier car with tyres that slip and soft mounts takes more energy."""
+    cycle = tmp_path / "short.csv"
+    cycle.write_text("time_s,speed_km_h,gear\n0,0,1\n2,0,1\n8,20,1\n12,0,1\n14,0,1\n")
+    text = (ROOT / "examples" / "vehicle_c_segment.yaml").read_text()
+    vehicle = tmp_path / "heavy.yaml"
+    vehicle.write_text(text.replace("mass_kg: 1416", "mass_kg: 2000")
+                       .replace("# tyres:", "tyres:").replace("# mounts:", "mounts:"))
+    options = ["--cycle", cycle, "--fidelity", "rigid", "--tolerance", "1e-4"]
+    usual = result_of("verify", EXAMPLE, example_fmu, *options)
+    heavy = result_of("verify", EXAMPLE, example_fmu, *options, "--vehicle", vehicle)
+    loss = [sum(row["detailed_J"] for row in run["loss_by_gear"])
+            for run in (usual["reduced"][0], heavy["reduced"][0])]
+    assert loss[1] > 1.1 * loss[0]
+    assert heavy["detailed"]["energy_balance_relative"] < 1e-3
+    vehicle.write_text(text.replace("mass_kg: 1416", "mass_kg: 1.4 t"))
+    assert f"{vehicle}:16: body: mass_kg must be" in fails(
+        "verify", EXAMPLE, example_fmu, *options, "--vehicle", vehicle)
 
 
 def test_wrong_wishes_are_refused(example_fmu, tmp_path):

@@ -116,7 +116,7 @@ static void a_vehicle_with_a_wrong_number_is_refused(void **state)
     car.flywheel_damping = (double)NAN;
     assert_int_equal(gm_vehicle_check(&car, &error), GM_ERR_ARGUMENT);
     car = gm_vehicle_reference();
-    car.full_load.speed[1] = 0.0;
+    car.full_load.point[1].speed = 0.0;
     assert_int_equal(gm_vehicle_check(&car, &error), GM_ERR_ARGUMENT);
 }
 

@@ -36,6 +36,13 @@ static void set_up(fixture *f, const char *cycle, double ratio, double grade,
                    .gearset = {ratio, 0.01, 0.05, 2e4, 20.0, 0.3, with_jacobian}};
     assert_int_equal(gm_cycle_named(cycle, &f->cycle, &error), GM_OK);
     f->vehicle.grade = grade;
+    if (grade > 0.0) { /* uphill: with all options */
+        f->vehicle.tyre_stiffness = 1e5;
+        f->vehicle.tyre_force_max = 7000.0;
+        f->vehicle.mount_inertia = 12.0;
+        f->vehicle.mount_stiffness = 47000.0;
+        f->vehicle.mount_damping = 150.0;
+    }
     assert_int_equal(
         gm_gear_plan_create(f->cycle, &f->vehicle, &one_gear, &f->plan, &error), GM_OK);
     f->dynamics = elastic_gearset_dynamics(&f->gearset);
