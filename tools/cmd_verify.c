@@ -39,7 +39,8 @@ static const gm_option options[] = {
              "gear and grade_percent"},
     {.kind = GM_OPTION_TEXT, .name = "vehicle", .value = "FILE.yaml",
      .offset = offsetof(arguments, drive.vehicle),
-     .help = "with --cycle: the vehicle; default: a C-segment car (gearmap help vehicle)"},
+     .help = "with --cycle: the vehicle; default: a C-segment car (see gearmap help "
+             "vehicle)"},
     {.kind = GM_OPTION_TEXT, .name = "fidelity", .value = "NAME", .fallback = "both",
      .offset = offsetof(arguments, drive.fidelity),
      .help = "with --cycle: rigid, lash or both"},

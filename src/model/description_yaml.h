@@ -30,8 +30,8 @@ typedef struct gm_yaml {
 GM_NODISCARD gm_status gm_yaml_parse(const char *file, const char *bytes, size_t size,
                                      gm_yaml **tree, gm_error *error);
 
-/** Read and parse a file of UTF-8 text; sha256: hash of its bytes. Like gm_yaml_parse, and
- *  GM_ERR_IO. */
+/** Read and parse a file of UTF-8 text; sha256: hash of its bytes. Like gm_yaml_parse,
+ *  and GM_ERR_IO. */
 GM_NODISCARD gm_status gm_yaml_read(const char *path, char sha256[GM_SHA256_TEXT],
                                     gm_yaml **tree, gm_error *error);
 void gm_yaml_destroy(gm_yaml *tree);

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
  * Schema of a file (the description, a vehicle): one table per section, from which
- * reading, unknown keys, types, units, ranges, defaults and the reference text are derived.
+ * reading, unknown keys, types, units, ranges, defaults and the reference text are
+ * derived.
  *
  * The unit of a number is the end of its key (width_mm, viscosity_40_mm2_s), so that key,
  * unit and factor cannot disagree.

@@ -50,8 +50,8 @@ GM_NODISCARD gm_status gm_cycle_create(const char *name, int n, const double *ti
                                        gm_error *error);
 
 /** A cycle from a file: columns time_s, speed_km_h, and optionally gear and grade_percent
- *  (cycle_file.c). Its name is that of the file. GM_ERR_IO, GM_ERR_FORMAT with file, line,
- *  what was found and expected, GM_ERR_MEMORY. */
+ *  (cycle_file.c). Its name is that of the file. GM_ERR_IO, GM_ERR_FORMAT with file,
+ *  line, what was found and expected, GM_ERR_MEMORY. */
 GM_NODISCARD gm_status gm_cycle_read(const char *path, gm_cycle **cycle, gm_error *error);
 
 /** Give the cycle's points a grade (rise over run, finite), copied. Once. GM_ERR_MEMORY;
@@ -70,8 +70,8 @@ double gm_cycle_speed(const gm_cycle *cycle, double t, double *acceleration);
 /** Smoothed grade at time t, rise over run; 0 on the level. */
 double gm_cycle_grade(const gm_cycle *cycle, double t);
 
-/** The first time after t at which smoothed speed and grade change their laws (between such
- *  times they are polynomials); infinite after the last. */
+/** The first time after t at which smoothed speed and grade change their laws (between
+ *  such times they are polynomials); infinite after the last. */
 double gm_cycle_next(const gm_cycle *cycle, double t);
 
 #ifdef __cplusplus

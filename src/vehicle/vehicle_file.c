@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * The tables of the vehicle file, and its reading by the reader of descriptions. What is a
- * property of the car must be given; fields of driver and control have defaults. The
+ * The tables of the vehicle file, and its reading by the reader of descriptions. What is
+ * a property of the car must be given; fields of driver and control have defaults. The
  * number of a default is that of gm_vehicle_reference.
  */
 #include "vehicle/gm_vehicle.h"
@@ -32,7 +32,8 @@ static const gm_section body = {
 
 static const gm_field wheel_fields[] = {
     {NUMBER("radius_mm", 50, 2000), AT(wheel_radius), .help = "dynamic radius"},
-    {NUMBER("inertia_kgm2", 0, 1000), AT(wheel_inertia), .help = "of all wheels together"},
+    {NUMBER("inertia_kgm2", 0, 1000), AT(wheel_inertia),
+     .help = "of all wheels together"},
     END};
 static const gm_section wheels = {
     .title = "wheels", .word = "wheels", .help = "All wheels.", .fields = wheel_fields};
@@ -49,7 +50,8 @@ static const gm_section tyres = {
     .fields = tyre_fields};
 
 static const gm_field road_fields[] = {
-    {NUMBER("air_density_kg_m3", 0, 3), AT(air_density), DEFAULT("1.2"), .help = "of the air"},
+    {NUMBER("air_density_kg_m3", 0, 3), AT(air_density), DEFAULT("1.2"),
+     .help = "of the air"},
     {NUMBER("gravity_m_s2", 1, 30), AT(gravity), DEFAULT("9.81"), .help = "gravity"},
     {NUMBER("grade_percent", -50, 50), AT(grade), DEFAULT("0"),
      .help = "rise over run of the whole road; the cycle's own is added"},
@@ -78,7 +80,8 @@ static const gm_section engine_mounts = {
     .fields = mount_fields};
 
 static const gm_field flywheel_fields[] = {
-    {NUMBER("stiffness_Nm_rad", 1, 1e6), AT(flywheel_stiffness), .help = "of its springs"},
+    {NUMBER("stiffness_Nm_rad", 1, 1e6), AT(flywheel_stiffness),
+     .help = "of its springs"},
     {NUMBER("damping_Nms_rad", 0, 1e4), AT(flywheel_damping), .help = "of its springs"},
     {NUMBER("secondary_inertia_kgm2", 0, 10), ABOVE, AT(drum_inertia),
      .help = "secondary side with the clutch drum"},
@@ -120,7 +123,7 @@ static const gm_field control_fields[] = {
     {NUMBER("preselect_time_s", 0.01, 60), AT(preselect_time), DEFAULT("1.5"),
      .help = "the next gear is engaged so long before the shift"},
     {NUMBER("interrupt_time_s", 0.01, 10), AT(interrupt_time), DEFAULT("0.3"),
-     .help = "within one path: to open the clutch, for the synchroniser, and to close it"},
+     .help = "within one path: to open the clutch, for the synchroniser, to close it"},
     END};
 static const gm_section control = {
     .title = "control", .word = "control", .help = "The transmission's control.",
@@ -150,7 +153,8 @@ static const gm_field engine_fields[] = {
     {NUMBER("drag_per_speed_Nms_rad", 0, 100), AT(drag_per_speed),
      .help = "what is added to it by speed"},
     {NUMBER("torque_lag_s", 0.001, 10), AT(torque_lag), .help = "first order"},
-    {NUMBER("idle_speed_rad_s", 10, 1000), AT(idle_speed), .help = "kept by the governor"},
+    {NUMBER("idle_speed_rad_s", 10, 1000), AT(idle_speed),
+     .help = "kept by the governor"},
     {NUMBER("idle_gain_Nms_rad", 0, 1000), ABOVE, AT(idle_gain), DEFAULT("2.5"),
      .help = "of the governor"},
     END};
