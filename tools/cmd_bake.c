@@ -25,7 +25,7 @@ static const gm_option options[] = {
      .help = "the file to write"},
     {.kind = GM_OPTION_TEXT, .name = "format", .value = "NAME", .fallback = "fmu2",
      .offset = offsetof(arguments, format),
-     .help = "fmu2: FMI 2.0 Co-Simulation"},
+     .help = "fmu2: FMI 2.0, Model Exchange and Co-Simulation"},
     GM_COMPILER_OPTION(arguments),
     GM_JSON_OPTION(arguments),
 };

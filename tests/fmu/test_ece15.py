@@ -83,7 +83,7 @@ def test_rigid_by_cvode(two, rows, rigid):
 
 
 def test_rigid_by_euler(two, host, rows):
-    """First order: 1 ms is enough over the whole cycle (0.96e-3), but takes too long here;
+    """First order: 1 ms is enough over the whole cycle (0.6e-3), but takes too long here;
     at its beginning synchronisers make most of the loss."""
     part = rows[:round(24 / ece15.HOLD)]
     step = 2.5e-4
