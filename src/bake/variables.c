@@ -151,12 +151,12 @@ dependency gm_bake_depends(scalar of, scalar on)
         depends = on.id == VARIABLE_PATH_TWIST;
         break;
     case VARIABLE_PATH_A: /* what twists the other path does not reach this one */
-        depends = is_torque(on.id) || is_speed(on.id) ||
-                  (on.id == VARIABLE_PATH_TWIST && own);
+        depends =
+            is_torque(on.id) || is_speed(on.id) || (on.id == VARIABLE_PATH_TWIST && own);
         break;
     default:
-        depends = follows_load(of.id) && (is_torque(on.id) || is_speed(on.id) ||
-                                          on.id == VARIABLE_PATH_TWIST);
+        depends = follows_load(of.id) &&
+                  (is_torque(on.id) || is_speed(on.id) || on.id == VARIABLE_PATH_TWIST);
     }
     return depends ? DEPENDENCY_DEPENDENT : DEPENDENCY_NONE;
 }
