@@ -225,6 +225,7 @@ static bool evaluate(const gm_reduced_map *map, gm_component *c)
     c->value[GM_KINETIC_ENERGY][0].real = out.kinetic_energy;
     c->value[GM_ELASTIC_ENERGY][0].real = out.elastic_energy;
     c->value[GM_OUTPUT_INERTIA][0].real = out.inertia_o;
+    c->value[GM_RECOMMENDED_STEP][0].real = out.step;
     c->value[GM_OUT_OF_MAP][0].integer = is_outside(c, flags);
     for (int p = 0; p < map->n_paths; p++) {
         c->value[GM_PATH_A][p].real = out.a[p];
@@ -247,6 +248,7 @@ static bool is_evaluated(gm_variable_id id)
     case GM_KINETIC_ENERGY:
     case GM_ELASTIC_ENERGY:
     case GM_OUTPUT_INERTIA:
+    case GM_RECOMMENDED_STEP:
     case GM_PATH_INERTIA:
     case GM_OUT_OF_MAP:
     case GM_PATH_A:

@@ -180,6 +180,7 @@ static bool depends_initially(scalar of, scalar on)
         return on.id == VARIABLE_PATH_GEAR && on.path == of.path;
     case VARIABLE_PATH_INERTIA:
     case VARIABLE_OUTPUT_INERTIA:
+    case VARIABLE_RECOMMENDED_STEP:
         return on.id == VARIABLE_PATH_GEAR || on.id == VARIABLE_FIDELITY;
     case VARIABLE_KINETIC_ENERGY:
         return sets_speeds(on.id);
@@ -224,6 +225,7 @@ static const unit_type units[] = {
      .rad = 1, .display = {"deg", DEGREES, 0.0}},
     {.unit = "rad/s", .type = "AngularVelocity", .quantity = "AngularVelocity",
      .s = -1, .rad = 1, .display = {"rpm", RPM, 0.0}},
+    {.unit = "s", .type = "Time", .quantity = "Time", .s = 1, .display = {"ms", 1e3, 0.0}},
     {.unit = "rad/s2", .type = "AngularAcceleration", .quantity = "AngularAcceleration",
      .s = -2, .rad = 1},
 };

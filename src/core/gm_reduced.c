@@ -274,6 +274,19 @@ int gm_outputs_are_finite(const gm_reduced_outputs *o)
     return finite;
 }
 
+/* The longest step of 10 ms, 5 ms, 2 ms ... 10 us in which the vibrations of the
+ * elastic paths are followed, not taken out. */
+static gm_real recommended_step(const gm_drive *d)
+{
+    static const gm_real steps[] = {1e-2, 5e-3, 2e-3, 1e-3, 5e-4,
+                                    2e-4, 1e-4, 5e-5, 2e-5, 1e-5};
+    int i = 0;
+    while (i < 9 && !gm_is_followed(d, steps[i], GM_PARTS)) {
+        i++;
+    }
+    return steps[i];
+}
+
 int gm_observe(const gm_drive *d, gm_solution *solution, gm_reduced_outputs *outputs)
 {
     static const gm_reduced_outputs zero = {0};
@@ -285,6 +298,7 @@ int gm_observe(const gm_drive *d, gm_solution *solution, gm_reduced_outputs *out
     }
     o.a_o = solution->point.a[GM_OUT];
     o.inertia_o = d->inertia[GM_OUT];
+    o.step = recommended_step(d);
     o.output_loss_torque = solution->terms.out;
     o.kinetic_energy = d->inertia[GM_OUT] * w_o * w_o / 2;
     for (int p = 0; p < d->n_paths; p++) {

@@ -218,8 +218,9 @@ typedef struct gm_reduced_outputs {
     gm_real kinetic_energy;             /* [J] */
     gm_real elastic_energy;             /* of the twisted paths [J] */
     gm_real twist_rate[GM_MAX_PATHS];   /* of elastic paths, else 0 [rad/s] */
-    gm_real inertia_o;                  /* that the output flange feels at once, */
-    gm_real inertia[GM_MAX_PATHS];      /* and that of each path [kg.m2] */
+    gm_real step; /* the longest of 10, 5, 2, 1 ms ... that follows every vibration [s] */
+    gm_real inertia_o;             /* that the output flange feels at once, */
+    gm_real inertia[GM_MAX_PATHS]; /* and that of each path [kg.m2] */
 } gm_reduced_outputs;
 
 /** Flags of a call, or-ed. */

@@ -194,6 +194,13 @@ int gm_configuration_index(const gm_reduced_map *map, const gm_path_state *paths
 void gm_make_drive(const gm_reduced_map *map, const gm_reduced_params *params,
                    const gm_motion *s, gm_reduced_cache *cache, gm_drive *d);
 
+/** Whether the vibrations of elastic paths are followed in a step of h seconds cut into so
+ *  many parts: (omega h / parts)^2 <= 4. */
+static inline int gm_is_followed(const gm_drive *d, gm_real h, int parts)
+{
+    return d->stiff * h * h <= 4 * parts * parts;
+}
+
 /** Mean flange torques over h seconds that begin t seconds into the step. */
 void gm_set_span(const gm_reduced_inputs *in, gm_real t, gm_real h, gm_drive *d);
 

@@ -21,8 +21,6 @@
 
 enum { GM_LOCATE = 16 }; /* solutions to locate one event */
 
-#define GM_RESOLVED 4 /* (omega h)^2 that a sub-step follows at its mean speeds */
-
 /* Changes of a spring's torque, relative and in N.m, that need not be followed. */
 #define CALM 0.02
 #define CALM_NM 0.2
@@ -294,8 +292,7 @@ static gm_real part_of(const gm_drive *d, const gm_span *span)
     if (span->last || d->stiff == 0) {
         return span->rest;
     }
-    while (parts < GM_PARTS &&
-           d->stiff * span->step * span->step > GM_RESOLVED * parts * parts) {
+    while (parts < GM_PARTS && !gm_is_followed(d, span->step, parts)) {
         parts++;
     }
     while (left < parts && span->rest * parts > 1.001 * span->step * left) {

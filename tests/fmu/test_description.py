@@ -12,7 +12,7 @@ from fmpy.validation import validate_fmu
 
 BASE = {"N.m": {"kg": 1, "m": 2, "s": -2}, "J": {"kg": 1, "m": 2, "s": -2},
         "W": {"kg": 1, "m": 2, "s": -3}, "K": {"K": 1}, "1": {}, "rad": {"rad": 1},
-        "rad/s": {"rad": 1, "s": -1}, "rad/s2": {"rad": 1, "s": -2},
+        "rad/s": {"rad": 1, "s": -1}, "rad/s2": {"rad": 1, "s": -2}, "s": {"s": 1},
         "kg.m2": {"kg": 1, "m": 2}}
 
 
