@@ -119,6 +119,7 @@ static const gm_dynamics_class motion_class = {
     .pattern = pattern,
     .jacobian = jacobian,
     .torque_column = torque_column,
+    .torque_row = speed_state,
     .speed_state = speed_state,
     .n_events = n_events,
     .events = events,

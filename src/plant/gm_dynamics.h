@@ -50,6 +50,8 @@ typedef struct gm_dynamics_class {
     /* d rates / d torque of a flange: column[n_states]. */
     int (*torque_column)(void *motion, const gm_motion_input *input, const double *x,
                          int flange, double *column);
+    /* The only state whose rate a flange's torque changes; NULL: it may be any. */
+    int (*torque_row)(const void *motion, int flange);
     /* Which state is the speed of a flange: the systems around couple to it. */
     int (*speed_state)(const void *motion, int flange);
 

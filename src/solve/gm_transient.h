@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
  * Motion over time: integrates a system of ordinary differential equations with modes by
- * CVODE (backward differences of order one and two, sparse Jacobian) and keeps its
- * account of energy.
+ * CVODE (backward differences, by default of order one and two, sparse Jacobian) and keeps
+ * its account of energy.
  *
  * Inputs may depend on time. They are smooth over pieces; where a piece ends, the solver
  * stops exactly, so that no step runs over a jump. Between the ends of pieces it stops at
@@ -28,12 +28,11 @@ typedef struct gm_transient_piece {
 
 /** Powers of the account at one instant. */
 typedef struct gm_transient_powers {
-    double in; /* W, net power of all that acts from outside */
-    double
-        through;   /* W >= 0, how much passes: the larger of what flows in and out */
-    double loss;   /* W >= 0 */
-    double stored; /* J */
-    double lost;   /* J >= 0, given up in jumps of x since the start */
+    double in;      /* W, net power of all that acts from outside */
+    double through; /* W >= 0, how much passes: the larger of what flows in and out */
+    double loss;    /* W >= 0 */
+    double stored;  /* J */
+    double lost;    /* J >= 0, given up in jumps of x since the start */
 } gm_transient_powers;
 
 /** A system. Calls that return int: 0 done, > 0 this x cannot be evaluated (the solver
@@ -65,6 +64,8 @@ typedef struct gm_transient_options {
     double tolerance; /* error of a step relative to usual values of each state
                          (tolerances); to larger values: a hundredth; 0: 3e-4 */
     double step_max;  /* s; 0: any */
+    int order_max;    /* of the backward differences, 1 to 5; 0: 2, since lightly damped
+                         meshes lie where higher orders are unstable */
     long steps_max;   /* 0: any number */
     double cpu_max;   /* s of processor time; 0: any */
 } gm_transient_options;

@@ -8,7 +8,6 @@
 #include <math.h>
 #include <string.h>
 
-#define MAX_ORDER 2
 /* A contact that closes within a step needs more cuts than the library's seven. */
 #define MAX_ERROR_FAILURES 20
 #define MAX_CONVERGENCE_FAILURES 20
@@ -23,6 +22,7 @@ struct gm_sun_ode {
     SUNLinearSolver linear;
     double *value;
     double relative, step_max;
+    int order_max;
     double t;                 /* end of the last step */
     gm_sun_ode_counts before; /* work of the runs that have ended */
     int initialised;
@@ -91,13 +91,14 @@ static int make_matrix(gm_sun_ode *ode)
 }
 
 gm_sun_ode *gm_sun_ode_create(const gm_sun_ode_system *system, double relative,
-                              const double *absolute, double step_max)
+                              const double *absolute, int order_max, double step_max)
 {
     gm_sun_ode *ode = gm_calloc(1, sizeof *ode);
     if (!ode)
         return NULL;
     ode->system = *system;
     ode->relative = relative;
+    ode->order_max = order_max;
     ode->step_max = step_max;
     if (gm_sun_open(&ode->sun) || make_vectors(ode, absolute) || make_matrix(ode)) {
         gm_sun_ode_destroy(ode);
@@ -140,7 +141,7 @@ static int initialise(gm_sun_ode *ode, double t)
     return GM_SUN_CATCH(CVodeSetErrHandlerFn, cvode, &ode->sun) ||
            CVodeInit(cvode, call_rates, t, ode->x) || CVodeSetUserData(cvode, ode) ||
            CVodeSVtolerances(cvode, ode->relative, ode->absolute) ||
-           CVodeSetMaxOrd(cvode, MAX_ORDER) ||
+           CVodeSetMaxOrd(cvode, ode->order_max) ||
            CVodeSetLinearSolver(cvode, ode->linear, ode->jacobian) ||
            CVodeSetJacFn(cvode, call_jacobian) ||
            CVodeSetMaxErrTestFails(cvode, MAX_ERROR_FAILURES) ||

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * Ordinary differential equations solved by CVODE, step by step: backward differences of
- * order one and two (a lightly damped mesh lies where orders three to five are unstable),
+ * Ordinary differential equations solved by CVODE, step by step: backward differences,
  * Newton's method with the sparse Jacobian of the system (sun.h).
  */
 #ifndef SUN_ODE_H
@@ -38,10 +37,11 @@ typedef struct gm_sun_ode_counts {
 
 typedef struct gm_sun_ode gm_sun_ode;
 
-/** relative error of a step, absolute[n] error of each state, longest step [s] (0: any).
- *  NULL when there is no memory. */
+/** relative error of a step, absolute[n] error of each state, highest order (1 to 5; a
+ *  lightly damped mesh lies where orders three to five are unstable), longest step [s]
+ *  (0: any). NULL when there is no memory. */
 gm_sun_ode *gm_sun_ode_create(const gm_sun_ode_system *system, double relative,
-                              const double *absolute, double step_max);
+                              const double *absolute, int order_max, double step_max);
 void gm_sun_ode_destroy(gm_sun_ode *ode);
 
 /** Begin at t from x[n] with a first step [s], 0: its own guess. Non-zero: failed. */

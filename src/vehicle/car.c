@@ -43,33 +43,43 @@ const char *gm_car_state_name(int i)
 
 /* ---- one instant ---- */
 
-static void clutch_at(const gm_trip_parts *parts, double t, const double *x, int p,
-                      gm_car_point *point)
+static void clutch_at(const gm_trip_parts *parts, const gm_car_time *now, const double *x,
+                      int p, gm_car_point *point)
 {
     const gm_vehicle *v = parts->vehicle;
     double slope;
     double capacity = gm_clutch_capacity(v, x[GM_CAR_ENGINE_SPEED], &slope);
     double s = tanh((x[GM_CAR_DRUM_SPEED] - point->speed[1 + p]) / v->clutch_slip);
-    double share = gm_gear_plan_share(parts->plan, p, t);
+    double share = now->share[p];
     double by_slip = share * capacity * (1.0 - s * s) / v->clutch_slip;
     double *by = point->clutch_by[p];
     memset(by, 0, GM_CAR_COLUMNS * sizeof *by);
-    point->share[p] = share;
     point->clutch[p] = share * capacity * s;
     by[GM_CAR_ENGINE_SPEED] = share * slope * s;
     by[GM_CAR_DRUM_SPEED] = by_slip;
     by[GM_CAR_DYNAMIC + 1 + p] = -by_slip;
 }
 
-static gm_driver_act driver_at(const gm_trip_parts *parts, double t, const double *x,
-                               double hill)
+void gm_car_time_at(const gm_trip_parts *parts, double t, gm_car_time *now)
 {
-    gm_driver_view see = {.v = x[GM_CAR_SPEED],
-                          .hill = hill,
-                          .integral = x[GM_CAR_INTEGRAL],
-                          .w_engine = x[GM_CAR_ENGINE_SPEED],
-                          .ratio = gm_gear_plan_ratio(parts->plan, t)};
-    see.v_ref = gm_cycle_speed(parts->cycle, t, &see.a_ref);
+    now->t = t;
+    now->v_ref = gm_cycle_speed(parts->cycle, t, &now->a_ref);
+    now->rise = gm_rise(parts->vehicle->grade + gm_cycle_grade(parts->cycle, t));
+    now->ratio = gm_gear_plan_ratio(parts->plan, t);
+    for (int p = 0; p < parts->gearset->n_paths; p++)
+        now->share[p] = gm_gear_plan_share(parts->plan, p, t);
+}
+
+static gm_driver_act driver_at(const gm_trip_parts *parts, const gm_car_time *now,
+                               const double *x, double hill)
+{
+    const gm_driver_view see = {.v_ref = now->v_ref,
+                                .a_ref = now->a_ref,
+                                .v = x[GM_CAR_SPEED],
+                                .hill = hill,
+                                .integral = x[GM_CAR_INTEGRAL],
+                                .w_engine = x[GM_CAR_ENGINE_SPEED],
+                                .ratio = now->ratio};
     return gm_driver(parts->vehicle, &see);
 }
 
@@ -84,20 +94,20 @@ static double shafts_slip(const gm_car_point *point, const double *x)
     return point->speed[0] + x[GM_CAR_MOUNT_SPEED] - point->hub;
 }
 
-void gm_car_at(const gm_trip_parts *parts, double t, const double *x,
+void gm_car_at(const gm_trip_parts *parts, const gm_car_time *now, const double *x,
                const double *flange_speed, gm_car_point *point)
 {
     const gm_vehicle *v = parts->vehicle;
     int n_paths = parts->gearset->n_paths;
-    point->rise = gm_rise(v->grade + gm_cycle_grade(parts->cycle, t));
+    point->rise = now->rise;
     point->hill = v->mass * v->gravity * point->rise;
-    point->act = driver_at(parts, t, x, point->hill);
+    point->act = driver_at(parts, now, x, point->hill);
     point->target = gm_engine_target(v, point->act.torque, x[GM_CAR_ENGINE_SPEED],
                                      &point->target_demand, &point->target_w);
     point->speed[0] = parts->forward * flange_speed[0];
     for (int p = 0; p < n_paths; p++) {
         point->speed[1 + p] = flange_speed[1 + p];
-        clutch_at(parts, t, x, p, point);
+        clutch_at(parts, now, x, p, point);
     }
     point->flywheel =
         v->flywheel_stiffness * x[GM_CAR_FLYWHEEL] +
@@ -214,6 +224,43 @@ void gm_car_rates(const gm_trip_parts *parts, const gm_car_point *point, const d
     mounts(v, point, x, dx);
     dx[GM_CAR_INTEGRAL] = point->act.integral_rate;
     account(parts, point, x, dx);
+}
+
+#define BIT(column) (1u << (column))
+#define FLANGE(f) (1u << (GM_CAR_DYNAMIC + (f)))
+
+/* What the twist speed of the driveshafts depends on, and what the brake does. */
+enum {
+    TWISTING =
+        BIT(GM_CAR_WHEELS) | BIT(GM_CAR_SPEED) | BIT(GM_CAR_MOUNT_SPEED) | FLANGE(0),
+    SHAFT_TORQUE = TWISTING | BIT(GM_CAR_SHAFTS),
+    BRAKE = BIT(GM_CAR_SPEED) | BIT(GM_CAR_INTEGRAL) | BIT(GM_CAR_ENGINE_SPEED),
+    FLYWHEEL = BIT(GM_CAR_ENGINE_SPEED) | BIT(GM_CAR_DRUM_SPEED) | BIT(GM_CAR_FLYWHEEL)
+};
+
+unsigned gm_car_torque_columns(int flange)
+{
+    return flange == 0
+               ? SHAFT_TORQUE
+               : BIT(GM_CAR_ENGINE_SPEED) | BIT(GM_CAR_DRUM_SPEED) | FLANGE(flange);
+}
+
+unsigned gm_car_rate_columns(int row)
+{
+    static const unsigned columns[GM_CAR_DYNAMIC] = {
+        [GM_CAR_ENGINE_SPEED] = FLYWHEEL | BIT(GM_CAR_ENGINE_TORQUE),
+        [GM_CAR_ENGINE_TORQUE] = BIT(GM_CAR_ENGINE_SPEED) | BIT(GM_CAR_ENGINE_TORQUE) |
+                                 BIT(GM_CAR_SPEED) | BIT(GM_CAR_INTEGRAL),
+        [GM_CAR_FLYWHEEL] = BIT(GM_CAR_ENGINE_SPEED) | BIT(GM_CAR_DRUM_SPEED),
+        [GM_CAR_DRUM_SPEED] = FLYWHEEL | FLANGE(1) | FLANGE(2),
+        [GM_CAR_SHAFTS] = TWISTING,
+        [GM_CAR_WHEELS] = SHAFT_TORQUE | BRAKE,
+        [GM_CAR_SPEED] = SHAFT_TORQUE | BRAKE,
+        [GM_CAR_MOUNT] = BIT(GM_CAR_MOUNT_SPEED),
+        [GM_CAR_MOUNT_SPEED] = SHAFT_TORQUE | BIT(GM_CAR_MOUNT),
+        [GM_CAR_INTEGRAL] = BIT(GM_CAR_SPEED) | BIT(GM_CAR_INTEGRAL),
+    };
+    return columns[row];
 }
 
 static void engine_by(const gm_vehicle *v, const gm_car_point *point,

@@ -38,13 +38,23 @@ enum {
  *  speeds. */
 enum { GM_CAR_COLUMNS = GM_CAR_DYNAMIC + GM_MAX_FLANGES };
 
+/** What follows from the time alone: the cycle and the commands. */
+typedef struct gm_car_time {
+    double t;            /* s */
+    double v_ref, a_ref; /* m/s, m/s2 */
+    double rise;         /* rise over way */
+    double ratio;        /* w_engine / w_wheel that the driver reckons with */
+    double share[GM_MAX_INPUT_PATHS];
+} gm_car_time;
+
+void gm_car_time_at(const gm_trip_parts *parts, double t, gm_car_time *now);
+
 /** Everything between the car's states and the flanges at one instant, with derivatives
  *  by GM_CAR_COLUMNS. */
 typedef struct gm_car_point {
     gm_driver_act act;
     double target, target_demand, target_w; /* engine torque asked for */
-    double share[GM_MAX_INPUT_PATHS];
-    double clutch[GM_MAX_INPUT_PATHS]; /* N.m */
+    double clutch[GM_MAX_INPUT_PATHS];      /* N.m */
     double clutch_by[GM_MAX_INPUT_PATHS][GM_CAR_COLUMNS];
     double flywheel; /* N.m */
     double shafts;   /* N.m, driving positive */
@@ -56,8 +66,8 @@ typedef struct gm_car_point {
     double speed[GM_MAX_FLANGES]; /* of the gearset; the output's in driving direction */
 } gm_car_point;
 
-/** x: states of the car; flange_speed[1 + n_paths] as the gearset has them [rad/s]. */
-void gm_car_at(const gm_trip_parts *parts, double t, const double *x,
+/** now: the instant; x: states of the car; flange_speed[1 + n_paths] as the gearset has them [rad/s]. */
+void gm_car_at(const gm_trip_parts *parts, const gm_car_time *now, const double *x,
                const double *flange_speed, gm_car_point *point);
 
 /** Torques on the flanges of the gearset, into it. */
@@ -70,6 +80,10 @@ void gm_car_torque_by(const gm_trip_parts *parts, const gm_car_point *point, int
 
 void gm_car_rates(const gm_trip_parts *parts, const gm_car_point *point, const double *x,
                   double *dx);
+
+/** Columns that torque_by (of a flange) and rates_by (of a row) may fill: 1 << column. */
+unsigned gm_car_torque_columns(int flange);
+unsigned gm_car_rate_columns(int row);
 
 /** by[GM_CAR_DYNAMIC][GM_CAR_COLUMNS]. */
 void gm_car_rates_by(const gm_trip_parts *parts, const gm_car_point *point,

@@ -51,7 +51,8 @@ gm_transient_system gm_trip_system(gm_trip *trip);
 /** t lies in the present piece of the solver. */
 void gm_trip_look(gm_trip *trip, double t, const double *x, gm_trip_view *view);
 
-/** Time spent in the rates of the gearset since it was made [s]. */
+/** Time spent in the rates of the gearset since it was made [s], from a sample of the
+ *  evaluations. */
 double gm_trip_gearset_time(const gm_trip *trip);
 
 #endif

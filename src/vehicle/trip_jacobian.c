@@ -77,6 +77,22 @@ static int *at(gm_trip *trip, int row, int column)
     return &trip->place[column * trip->n + row];
 }
 
+/* Rows of the gearset that a flange's torque acts on. */
+static void torque_rows(const gm_trip *trip, int flange, int *first, int *end)
+{
+    const gm_dynamics_class *is = trip->is;
+    *first = is->torque_row ? is->torque_row(trip->motion, flange) : 0;
+    *end = is->torque_row ? *first + 1 : trip->n_gearset;
+}
+
+static void mark_torque(gm_trip *trip, int flange, int column)
+{
+    int first, end;
+    torque_rows(trip, flange, &first, &end);
+    for (int i = first; i < end; i++)
+        *at(trip, GM_CAR_STATES + i, column) = 1;
+}
+
 /* First 1 where an entry may be, later its place. */
 static void mark(gm_trip *trip)
 {
@@ -85,9 +101,11 @@ static void mark(gm_trip *trip)
     for (int k = 0; k < n_columns(trip); k++) {
         int column = state_of_column(trip, k);
         for (int i = 0; i < GM_CAR_DYNAMIC; i++)
-            *at(trip, i, column) = 1;
-        for (int i = GM_CAR_STATES; i < trip->n; i++)
-            *at(trip, i, column) = 1;
+            if (gm_car_rate_columns(i) >> k & 1u)
+                *at(trip, i, column) = 1;
+        for (int f = 0; f <= trip->parts.gearset->n_paths; f++)
+            if (gm_car_torque_columns(f) >> k & 1u)
+                mark_torque(trip, f, column);
     }
     for (int k = 0; k < trip->n_gearset; k++)
         for (int e = trip->own_start[k]; e < trip->own_start[k + 1]; e++)
@@ -162,8 +180,10 @@ static int add_torques(gm_trip *trip, const gm_car_point *point, const double *x
         gm_car_torque_by(&trip->parts, point, f, by);
         flag = trip->is->torque_column(trip->motion, &trip->input, x + GM_CAR_STATES, f,
                                        trip->column);
+        int first, end;
+        torque_rows(trip, f, &first, &end);
         for (int k = 0; k < n_columns(trip) && flag == 0; k++)
-            for (int i = 0; i < trip->n_gearset && by[k] != 0.0; i++)
+            for (int i = first; i < end && gm_car_torque_columns(f) >> k & 1u; i++)
                 value[*at(trip, GM_CAR_STATES + i, state_of_column(trip, k))] +=
                     trip->column[i] * by[k];
     }
@@ -178,7 +198,8 @@ int gm_trip_jacobian(gm_trip *trip, const gm_car_point *point, const double *x,
     gm_car_rates_by(&trip->parts, point, by);
     for (int i = 0; i < GM_CAR_DYNAMIC; i++)
         for (int k = 0; k < n_columns(trip); k++)
-            value[*at(trip, i, state_of_column(trip, k))] += by[i][k];
+            if (gm_car_rate_columns(i) >> k & 1u)
+                value[*at(trip, i, state_of_column(trip, k))] += by[i][k];
     int flag = add_own(trip, x, value);
     return flag ? flag : add_torques(trip, point, x, value);
 }

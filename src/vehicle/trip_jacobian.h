@@ -20,7 +20,9 @@ struct gm_trip {
     int n_gearset, n;
     int speed_state[GM_MAX_FLANGES]; /* among all states */
     gm_motion_input input;
+    gm_car_time instant; /* of the last evaluation: several have the same time */
     double gearset_time; /* s */
+    unsigned evaluations;
     /* pattern, and where an entry of the full matrix stands in it */
     int *column_start, *row, *place;
     int *own_start, *own_row; /* of the gearset's own Jacobian */
