@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
  * Motion over time: integrates a system of ordinary differential equations with modes by
- * CVODE (backward differences, by default of order one and two, sparse Jacobian) and keeps
- * its account of energy.
+ * CVODE (backward differences, by default of order one and two, sparse Jacobian) and
+ * keeps its account of energy.
  *
  * Inputs may depend on time. They are smooth over pieces; where a piece ends, the solver
  * stops exactly, so that no step runs over a jump. Between the ends of pieces it stops at

@@ -61,12 +61,13 @@ typedef struct gm_car_point {
     double road, road_slope;
     double rise, hill; /* rise over way; N */
     double hub;        /* speed of the wheels, rad/s */
-    double tyre, tyre_by_wheel,
-        tyre_by_v;                /* force on the car, N; derivatives by speeds */
+    double tyre;       /* force on the car, N */
+    double tyre_by_wheel, tyre_by_v;
     double speed[GM_MAX_FLANGES]; /* of the gearset; the output's in driving direction */
 } gm_car_point;
 
-/** now: the instant; x: states of the car; flange_speed[1 + n_paths] as the gearset has them [rad/s]. */
+/** now: the instant; x: states of the car; flange_speed[1 + n_paths] as the gearset has
+ *  them [rad/s]. */
 void gm_car_at(const gm_trip_parts *parts, const gm_car_time *now, const double *x,
                const double *flange_speed, gm_car_point *point);
 

@@ -8,7 +8,8 @@
 #include <string.h>
 #include <time.h>
 
-/* Reading the clock takes as long as the rates of a reduced gearset: a sample is timed. */
+/* Reading the clock takes as long as the rates of a reduced gearset: a sample is timed.
+ */
 #define TIMED_EVERY 16
 
 static double seconds(void)
