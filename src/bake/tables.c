@@ -262,6 +262,8 @@ static void compliance_fields(const writer *w, const gm_gear *gear)
     gm_buffer_number(w->text, gear->damping);
     gm_buffer_text(w->text, ", .lash = ");
     gm_buffer_number(w->text, gear->lash);
+    gm_buffer_text(w->text, ", .film = ");
+    gm_buffer_number(w->text, gear->film);
     gm_buffer_text(w->text, ", .pin = {\n");
     for (int d = 0; d < 2; d++) {
         gm_buffer_text(w->text, "        [%s] = ", direction_index[d]);

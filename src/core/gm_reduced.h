@@ -69,6 +69,8 @@ typedef struct gm_gear {
     gm_real stiffness; /* k [N.m/rad], both flanks in contact, >= 0 */
     gm_real damping;   /* d of the contact [N.m.s/rad], >= 0 */
     gm_real lash;      /* whole free angle [rad], >= 0 */
+    gm_real film;      /* last part of it before contact, in which the squeezed oil film
+                          damps more and more [rad], >= 0 */
     gm_table1 pin[2];  /* part of P that brakes the input side, by direction of rotation
                           of the path: x |w_p| [rad/s] -> N.m at the path's flange, >= 0;
                           value = NULL: zero */

@@ -2,13 +2,14 @@
  *
  * The spring with backlash between an engaged path and the output, fidelity lash. Twist
  * theta, slip s = dtheta/dt, compression e = max(0, |theta| - lash/2) of the flank that
- * carries:
+ * carries, u = |theta| - lash/2:
  *
- *   T = sgn(theta) [F + limited(d s sgn(theta), F)]      F = k e,   limited to -F .. F
+ *   T = sgn(theta) k e + d q(u) s        q = 1 in contact, 0.05 in the middle of the gap
  *
- * The damper is limited to the spring's torque, so that contact enters without a jump and
- * never pulls (law of Modelica.Mechanics.Rotational.Components.ElastoBacklash, Modelica
- * Standard Library 4).
+ * In between, over the depth `film` before contact, q rises as 3t^2 - 2t^3: the oil film
+ * between the flanks is squeezed. So contact enters without a jump of damping, and a
+ * path that carries nothing comes to rest on its flank instead of bouncing on it. The
+ * meshes of the detailed gearset have the same law. q is read where a sub-step begins.
  *
  * Over a sub-step of h from theta to theta + h s, F is the mean over the way, [U(theta +
  * h s) - U(theta)] / (h s) with U = k e^2/2: what the spring takes is exactly what it
@@ -50,26 +51,34 @@ static gm_real mean_force(const flank *f, gm_real k, gm_real *slope)
     return force;
 }
 
-/* Add the flank that is loaded where sign * twist > 0. */
+/* Share of the contact's damping that is left in the middle of the gap. */
+#define FILM_IN_GAP 0.05
+
+/* q(u) and its derivative. */
+static gm_real film_share(const gm_gear *gear, gm_real u, gm_real *slope)
+{
+    *slope = 0;
+    if (u >= 0) {
+        return 1;
+    }
+    if (u <= -gear->film) {
+        return FILM_IN_GAP;
+    }
+    const gm_real t = 1 + u / gear->film;
+    *slope = (1 - FILM_IN_GAP) * 6 * t * (1 - t) / gear->film;
+    return FILM_IN_GAP + (1 - FILM_IN_GAP) * t * t * (3 - 2 * t);
+}
+
+/* Add the spring of the flank that is loaded where sign * twist > 0. */
 static void add_flank(const gm_gear *gear, const gm_stride *stride, const flank *f,
                       gm_real sign, gm_spring *t)
 {
-    const gm_real k = gear->stiffness, late = stride->late, in = sign * stride->slip;
-    gm_real slope, force = mean_force(f, k, &slope), damper = gear->damping * in;
-    const gm_real of_slip = gear->damping;
+    const gm_real k = gear->stiffness, late = stride->late;
+    gm_real slope, force = mean_force(f, k, &slope);
     force += late * (k * f->e_end - force);
     slope += late * ((f->e_end > 0 ? k : 0) - slope);
-    slope *= stride->h;
-    if (damper >= force) {
-        damper = force;
-        t->slope += 2 * slope;
-    } else if (damper <= -force) {
-        damper = -force;
-    } else {
-        t->slope += slope + of_slip;
-    }
-    t->torque += sign * (force + damper);
-    t->power += damper * in;
+    t->slope += slope * stride->h;
+    t->torque += sign * force;
     if (late > 0) {
         const gm_real stored = k / 2 * (f->e_end - f->e) * (f->e_end + f->e);
         t->power += late * (k * f->e_end * f->way - stored) / stride->h;
@@ -80,7 +89,9 @@ gm_spring gm_spring_at(const gm_gear *gear, gm_real twist, const gm_stride *stri
 {
     const gm_real half = gear->lash / 2, way = stride->h * stride->slip;
     const flank up = flank_of(half, twist, way), down = flank_of(half, -twist, -way);
-    gm_spring t = {0, 0, 0};
+    gm_real unused;
+    const gm_real d = gear->damping * film_share(gear, gm_abs(twist) - half, &unused);
+    gm_spring t = {d * stride->slip, d, d * stride->slip * stride->slip};
     if (up.e > 0 || up.e_end > 0) {
         add_flank(gear, stride, &up, 1, &t);
     }
@@ -92,25 +103,15 @@ gm_spring gm_spring_at(const gm_gear *gear, gm_real twist, const gm_stride *stri
 
 gm_spring_gradient gm_spring_gradient_at(const gm_gear *gear, gm_real twist, gm_real slip)
 {
-    const gm_real k = gear->stiffness, side = twist < 0 ? -1 : 1, in = side * slip;
-    const gm_real force = k * (side * twist - gear->lash / 2),
-                  damper = gear->damping * in;
-    gm_spring_gradient g = {0, 0, 0, 0};
-    if (force <= 0) {
-        return g;
-    }
-    if (damper >= force) {
-        g.torque_twist = 2 * k;
-        g.power_twist = k * slip;
-        g.power_slip = side * force;
-    } else if (damper <= -force) {
-        g.power_twist = -k * slip;
-        g.power_slip = -side * force;
-    } else {
-        g.torque_twist = k;
-        g.torque_slip = gear->damping;
-        g.power_slip = 2 * gear->damping * slip;
-    }
+    const gm_real side = twist < 0 ? -1 : 1, u = side * twist - gear->lash / 2;
+    gm_real rise;
+    const gm_real d = gear->damping * film_share(gear, u, &rise);
+    gm_spring_gradient g;
+    rise *= side * gear->damping;
+    g.torque_twist = rise * slip + (u > 0 ? gear->stiffness : 0);
+    g.torque_slip = d;
+    g.power_twist = rise * slip * slip;
+    g.power_slip = 2 * d * slip;
     return g;
 }
 

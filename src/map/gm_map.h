@@ -73,6 +73,7 @@ typedef struct gm_map_gear {
                            known, rigid */
     double damping;   /* N.m.s/rad */
     double lash;      /* rad, from flank to flank */
+    double film;      /* rad before contact in which the damping sets in */
     double inertia_extra; /* J_g: turns with the output in this gear beyond J_out and
                              r^2 J_p, kg.m2; 0 for layshafts */
 } gm_map_gear;

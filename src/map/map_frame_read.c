@@ -28,8 +28,8 @@ static bool column_gear(sqlite3_stmt *rows, int *path, gm_map_gear *gear)
            (!given || gm_column_real(rows, 3, &gear->ratio_given)) &&
            gm_column_real(rows, 4, &gear->stiffness) &&
            gm_column_real(rows, 5, &gear->damping) &&
-           gm_column_real(rows, 6, &gear->lash) &&
-           gm_column_real(rows, 7, &gear->inertia_extra);
+           gm_column_real(rows, 6, &gear->lash) && gm_column_real(rows, 7, &gear->film) &&
+           gm_column_real(rows, 8, &gear->inertia_extra);
 }
 
 static gm_status read_gears(const gm_db *db, gm_map *map, gm_error *error)
@@ -40,7 +40,7 @@ static gm_status read_gears(const gm_db *db, gm_map *map, gm_error *error)
     gm_status status =
         gm_db_prepare(db,
                       "SELECT path, gear, ratio, ratio_given, stiffness, damping, lash, "
-                      "inertia_extra FROM gear ORDER BY path, gear",
+                      "film, inertia_extra FROM gear ORDER BY path, gear",
                       &rows, error);
     if (status == GM_OK)
         status = gm_db_next(db, rows, &row, error);

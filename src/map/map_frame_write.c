@@ -34,7 +34,8 @@ static gm_status write_gear(const gm_db *db, sqlite3_stmt *put, int p,
     (void)sqlite3_bind_double(put, 5, gear->stiffness);
     (void)sqlite3_bind_double(put, 6, gear->damping);
     (void)sqlite3_bind_double(put, 7, gear->lash);
-    (void)sqlite3_bind_double(put, 8, gear->inertia_extra);
+    (void)sqlite3_bind_double(put, 8, gear->film);
+    (void)sqlite3_bind_double(put, 9, gear->inertia_extra);
     return gm_db_step(db, put, error);
 }
 
@@ -46,7 +47,7 @@ gm_status gm_frame_write_paths(const gm_db *db, const gm_map *map, gm_error *err
         status =
             gm_db_prepare(db, "INSERT INTO path VALUES (?, ?, ?, ?)", &put_path, error);
     if (status == GM_OK)
-        status = gm_db_prepare(db, "INSERT INTO gear VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
+        status = gm_db_prepare(db, "INSERT INTO gear VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
                                &put_gear, error);
     for (int p = 0; status == GM_OK && p < map->n_paths; p++) {
         status = write_path(db, put_path, map, p, error);

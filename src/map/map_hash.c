@@ -66,6 +66,7 @@ static void add_path(gm_sha256 *sum, const gm_map_path *path)
         gm_sha256_double(sum, path->gears[g].stiffness);
         gm_sha256_double(sum, path->gears[g].damping);
         gm_sha256_double(sum, path->gears[g].lash);
+        gm_sha256_double(sum, path->gears[g].film);
     }
 }
 

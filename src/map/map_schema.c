@@ -41,6 +41,7 @@ static const schema_table tables[] = {
              "  stiffness REAL NOT NULL " IS_REAL("stiffness") ",\n"
              "  damping REAL NOT NULL " IS_REAL("damping") ",\n"
              "  lash REAL NOT NULL " IS_REAL("lash") ",\n"
+             "  film REAL NOT NULL " IS_REAL("film") ",\n"
              "  inertia_extra REAL NOT NULL " IS_REAL("inertia_extra") ",\n"
              "  PRIMARY KEY (path, gear)\n"
              ") WITHOUT ROWID"},
@@ -110,7 +111,7 @@ static const char *const views[] = {
     "CREATE VIEW v_gear AS SELECT p.name AS path, g.gear, g.ratio, g.ratio_given,\n"
     "  g.ratio / g.ratio_given - 1 AS relative_deviation,\n"
     "  g.stiffness AS stiffness_Nm_rad, g.damping AS damping_Nms_rad,\n"
-    "  g.lash * 57.2957795130823 AS lash_deg,\n"
+    "  g.lash * 57.2957795130823 AS lash_deg, g.film * 57.2957795130823 AS film_deg,\n"
     "  p.inertia AS path_inertia_kgm2, p.sync_torque AS sync_torque_Nm\n"
     "FROM gear g JOIN path p ON p.path = g.path",
 

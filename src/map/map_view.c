@@ -72,6 +72,7 @@ static gm_status build_gear(const builder *b, int p, int g)
     gear->stiffness = from->stiffness;
     gear->damping = from->damping;
     gear->lash = from->lash;
+    gear->film = from->film;
     gear->inertia_extra = from->inertia_extra;
     key.path = p;
     key.gear[p] = from->number;

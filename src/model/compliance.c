@@ -3,7 +3,7 @@
  * How a path gives way: its flange turned against the held output. The row forces F_e at
  * 1 N.m follow from statics alone, without friction; virtual work then gives
  *
- *   1/k = sum F_e^2 / k_e,   lash = sum |F_e| j_e
+ *   1/k = sum F_e^2 / k_e,   lash = sum |F_e| j_e,   film = sum |F_e| e_e
  *
  * and equal dissipation at slow motion, where every row takes its static share of the
  * rate, d / k^2 = sum d_e (F_e / k_e)^2.
@@ -16,7 +16,7 @@
 #include <math.h>
 
 typedef struct sums {
-    double flexibility, dissipation, lash;
+    double flexibility, dissipation, lash, film;
 } sums;
 
 static void add_row(sums *s, const gm_contact_law *law, double F)
@@ -24,6 +24,8 @@ static void add_row(sums *s, const gm_contact_law *law, double F)
     s->flexibility += F * F / law->stiffness;
     s->dissipation += law->damping * F * F / (law->stiffness * law->stiffness);
     s->lash += 2.0 * fabs(F) * law->gap;
+    if (law->model == GM_CONTACT_FILM)
+        s->film += fabs(F) * fmin(law->entry, law->gap);
 }
 
 static void apply(const gm_row *row, double F, double *torque)
@@ -89,7 +91,7 @@ gm_status gm_gearset_compliance(const gm_gearset *gearset, int p, int number,
         return gm_fail(error, GM_ERR_ARGUMENT, "compliance is that of a gear, not of 0");
     gm_configuration_rows rows;
     gm_nodes nodes;
-    sums s = {0.0, 0.0, 0.0};
+    sums s = {0.0, 0.0, 0.0, 0.0};
     gm_status status = gm_configuration_rows_make(gearset, gear, &rows, error);
     if (status != GM_OK)
         return status;
@@ -100,7 +102,7 @@ gm_status gm_gearset_compliance(const gm_gearset *gearset, int p, int number,
     }
     if (status == GM_OK) {
         double k = 1.0 / s.flexibility;
-        *compliance = (gm_compliance){k, k * k * s.dissipation, s.lash};
+        *compliance = (gm_compliance){k, k * k * s.dissipation, s.lash, s.film};
     }
     gm_configuration_rows_clear(&rows);
     return status;

@@ -44,6 +44,7 @@ typedef struct gm_compliance {
     double stiffness; /* N.m/rad at the path's flange, flanks in contact, > 0 */
     double damping;   /* N.m.s/rad, in parallel with it */
     double lash;      /* rad at the path's flange, from flank to flank, >= 0 */
+    double film;      /* rad, depth before contact in which the damping sets in, >= 0 */
 } gm_compliance;
 
 #endif

@@ -9,7 +9,7 @@
 
 #define NOMINAL_SPEED 100.0 /* rad/s */
 #define NOMINAL_ANGLE 10.0  /* rad; twists: their own */
-#define NOMINAL_TWIST 1e-2
+#define NOMINAL_TWIST 0.1
 #define NOMINAL_ENERGY 1e4 /* J */
 enum { EVENT_ROUNDS = 10 };
 

@@ -74,6 +74,7 @@ static void same_path(const gm_path *a, const gm_path *b)
             assert_true(a->gears[g].stiffness == b->gears[g].stiffness);
             assert_true(a->gears[g].damping == b->gears[g].damping);
             assert_true(a->gears[g].lash == b->gears[g].lash);
+            assert_true(a->gears[g].film == b->gears[g].film);
             same1(&a->gears[g].pin[d], &b->gears[g].pin[d]);
         }
         for (int l = 0; l < a->n_lines; l++) {

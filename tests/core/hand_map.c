@@ -43,6 +43,7 @@ hand_spec hand_default(void)
         .stiffness = {2e4, 3e4},
         .damping = {2.0, 3.0},
         .lash = {5e-3, 4e-3},
+        .film = 1e-4,
         .pin_part = 0.2,
         .speed_max = 100.0,
         .torque_max = 250.0,
@@ -99,6 +100,7 @@ hand_spec hand_random_spec(unsigned *seed)
     s.stiffness[1] = hand_between(seed, 3e3, 1e5);
     s.damping[0] = hand_between(seed, 0, 20);
     s.lash[0] = hand_between(seed, 0, 0.02);
+    s.film = hand_between(seed, 1e-5, 2e-4);
     s.pin_part = hand_between(seed, 0, 0.25);
     s.roughness = 1 + (unsigned)(1e6 * hand_random(seed));
     return s;
@@ -175,6 +177,7 @@ static void fill_gear(const hand_spec *s, int p, int g, unsigned *seed, hand_map
     gear->stiffness = s->stiffness[p];
     gear->damping = s->damping[p];
     gear->lash = s->lash[p];
+    gear->film = s->film;
     for (int dir = 0; dir < 2; dir++) {
         for (int i = 0; i < HAND_W; i++) {
             const double factor =

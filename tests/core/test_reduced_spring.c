@@ -34,20 +34,47 @@ static gm_spring spring_now(const gm_gear *gear, double twist, double slip)
 
 /* ---- the law ---- */
 
-/* Values of ElastoBacklash in the Modelica Standard Library: c 1e5 N.m/rad, b 1e-3 rad,
- * d 50 N.m.s/rad, phi_rel 8e-4 rad. */
-static void follows_the_law_of_elastic_backlash(void **state)
+/* By hand: in contact k e + d s; in the gap 0.05 d s; half a film before contact the
+ * damping is half way between. */
+static void follows_its_law(void **state)
 {
-    const gm_gear gear = {.stiffness = 1e5, .damping = 50, .lash = 1e-3};
-    const double slip[4] = {0, 1, -1, -0.1}, torque[4] = {30, 60, 0, 25};
+    const gm_gear gear = {.stiffness = 1e5, .damping = 50, .lash = 1e-3, .film = 1e-4};
+    const double slip[4] = {0, 1, -1, -0.1}, torque[4] = {30, 80, -20, 25};
     (void)state;
     for (int i = 0; i < 4; i++) {
         assert_near(spring_now(&gear, 8e-4, slip[i]).torque, torque[i], 1e-10);
         assert_near(spring_now(&gear, -8e-4, -slip[i]).torque, -torque[i], 1e-10);
+        assert_near(spring_now(&gear, 3e-4, slip[i]).torque, 2.5 * slip[i], 1e-10);
+        assert_near(spring_now(&gear, 4.5e-4, slip[i]).torque,
+                    50 * (0.05 + 0.95 / 2) * slip[i], 1e-10);
+        assert_near(spring_now(&gear, 8e-4, slip[i]).power, 50 * slip[i] * slip[i],
+                    1e-12);
     }
-    assert_true(spring_now(&gear, 4.9e-4, 100).torque == 0);
-    assert_true(spring_now(&gear, -4.9e-4, 100).torque == 0);
-    assert_near(spring_now(&gear, 8e-4, 0.1).power, 0.5, 1e-12); /* d s^2 */
+}
+
+/* The gradient at an instant against differences, over the gap and both flanks. */
+static void its_gradient_is_exact(void **state)
+{
+    unsigned seed = 10;
+    (void)state;
+    for (int i = 0; i < 10000; i++) {
+        const gm_gear gear = {
+            .stiffness = 1e5, .damping = 50, .lash = 1e-3, .film = 1e-4};
+        const double twist = hand_between(&seed, -7e-4, 7e-4), h = 1e-9;
+        const double slip = hand_between(&seed, -1, 1);
+        if (fabs(fabs(twist) - 5e-4) < 2 * h)
+            continue; /* the spring's kink */
+        const gm_spring_gradient g = gm_spring_gradient_at(&gear, twist, slip);
+        const gm_spring up = spring_now(&gear, twist + h, slip),
+                        down = spring_now(&gear, twist - h, slip),
+                        more = spring_now(&gear, twist, slip + 1e-4),
+                        less = spring_now(&gear, twist, slip - 1e-4);
+        /* curvature of the film's share: 6 / film^2 over h */
+        assert_near(g.torque_twist, (up.torque - down.torque) / (2 * h), 10);
+        assert_near(g.power_twist, (up.power - down.power) / (2 * h), 10);
+        assert_near(g.torque_slip, (more.torque - less.torque) / 2e-4, 1e-6);
+        assert_near(g.power_slip, (more.power - less.power) / 2e-4, 1e-6);
+    }
 }
 
 /* A way of any length: in contact, in the gap, across one flank or both. */
@@ -56,6 +83,7 @@ static void random_way(unsigned *seed, gm_gear *gear, double *twist, gm_stride *
     gear->stiffness = hand_between(seed, 1e3, 1e5);
     gear->damping = hand_between(seed, 0, 50);
     gear->lash = hand_random(seed) < 0.2 ? 0 : hand_between(seed, 1e-4, 1e-2);
+    gear->film = hand_random(seed) < 0.2 ? 0 : hand_between(seed, 0, 1e-3);
     *twist = hand_between(seed, -0.01, 0.01);
     stride->h = pow(10, hand_between(seed, -6, -1));
     stride->slip = hand_between(seed, -0.02, 0.02) / stride->h;
@@ -279,7 +307,8 @@ static void the_energy_of_the_twist_goes_when_the_gear_does(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(follows_the_law_of_elastic_backlash),
+        cmocka_unit_test(follows_its_law),
+        cmocka_unit_test(its_gradient_is_exact),
         cmocka_unit_test(takes_what_it_stores_and_loses),
         cmocka_unit_test(the_slope_is_the_derivative_of_the_torque),
         cmocka_unit_test(vibrates_as_the_damped_oscillator),

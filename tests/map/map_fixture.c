@@ -181,6 +181,7 @@ gm_map *fixture_map(const fixture_options *options)
             gear->stiffness = 1e4 * (1.0 + fixture_random(&state));
             gear->damping = 3.0 * fixture_random(&state);
             gear->lash = 0.01 * fixture_random(&state);
+            gear->film = 1e-4 * fixture_random(&state);
         }
     }
     for (int t = 0; t < map->n_tables; t++)
@@ -226,6 +227,7 @@ static bool same_path(const gm_map_path *a, const gm_map_path *b)
                same_number(a->gears[g].stiffness, b->gears[g].stiffness) &&
                same_number(a->gears[g].damping, b->gears[g].damping) &&
                same_number(a->gears[g].lash, b->gears[g].lash) &&
+               same_number(a->gears[g].film, b->gears[g].film) &&
                same_number(a->gears[g].inertia_extra, b->gears[g].inertia_extra);
     return same;
 }

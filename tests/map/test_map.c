@@ -215,6 +215,7 @@ static void hash_sees_every_number_and_text(void **state)
                          &path->gears[1].stiffness,
                          &path->gears[1].damping,
                          &path->gears[1].lash,
+                         &path->gears[1].film,
                          &path->gears[1].inertia_extra};
     char *texts[] = {map->name, map->title, map->input_sha256, map->options, path->name};
     hash_of(map, before);
