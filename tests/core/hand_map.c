@@ -77,6 +77,17 @@ hand_spec hand_mirrored(const hand_spec *spec)
     return mirrored;
 }
 
+/* Parts that turn in some gears only, in every second gearset. */
+static void random_extra(unsigned seed, hand_spec *s)
+{
+    const double most = hand_random(&seed) < 0.5 ? 0 : 0.45 * s->inertia_output;
+    for (int p = 0; p < 2; p++) {
+        for (int g = 0; g < HAND_GEARS; g++) {
+            s->inertia_extra[p][g] = hand_between(&seed, -most, most);
+        }
+    }
+}
+
 hand_spec hand_random_spec(unsigned *seed)
 {
     hand_spec s = hand_default();
@@ -102,6 +113,7 @@ hand_spec hand_random_spec(unsigned *seed)
     s.lash[0] = hand_between(seed, 0, 0.02);
     s.film = hand_between(seed, 1e-5, 2e-4);
     s.pin_part = hand_between(seed, 0, 0.25);
+    random_extra(*seed, &s);
     s.roughness = 1 + (unsigned)(1e6 * hand_random(seed));
     return s;
 }
@@ -174,6 +186,7 @@ static void fill_gear(const hand_spec *s, int p, int g, unsigned *seed, hand_map
     gm_gear *gear = &m->gear[p][g];
     gear->number = s->number[p][g];
     gear->ratio = s->ratio[p][g];
+    gear->inertia_extra = s->inertia_extra[p][g];
     gear->stiffness = s->stiffness[p];
     gear->damping = s->damping[p];
     gear->lash = s->lash[p];
@@ -301,6 +314,9 @@ double hand_kinetic(const hand_map *m, const gm_reduced_state *s)
     double sum = m->map.inertia_output * s->w_o * s->w_o / 2;
     for (int p = 0; p < m->map.n_paths; p++) {
         sum += m->map.path[p].inertia * s->path[p].w * s->path[p].w / 2;
+        if (s->path[p].mode == GM_PATH_ENGAGED) {
+            sum += m->gear[p][s->path[p].gear].inertia_extra * s->w_o * s->w_o / 2;
+        }
     }
     return sum;
 }

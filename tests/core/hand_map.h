@@ -25,6 +25,7 @@ typedef struct hand_spec {
     int n_paths, n_gears[2], number[2][HAND_GEARS];
     double ratio[2][HAND_GEARS];
     double inertia[2], inertia_output, sync_torque[2];
+    double inertia_extra[2][HAND_GEARS];
     double p0[2], p1;
     double d0[2], d1, overrun;
     double x;

@@ -147,8 +147,7 @@ static void the_mirrored_gearset_moves_in_mirror_image(void **state)
             gm_reduced_step(&mirror.map, &params, &back, h, &b);
             /* the coupling's table is read in another cell: rounding, some 1e-15 a step
              */
-            const double close =
-                (fidelity == GM_LASH ? 1e-6 : 1e-9) * (1 + fabs(a.w_o));
+            const double close = (fidelity == GM_LASH ? 1e-6 : 1e-9) * (1 + fabs(a.w_o));
             assert_near(a.w_o, -b.w_o, close);
             assert_near(a.path[0].w, -b.path[0].w, 20 * close);
             assert_near(a.path[1].w, -b.path[1].w, 20 * close);

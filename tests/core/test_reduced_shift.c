@@ -85,6 +85,91 @@ static void infinite_capacity_engages_at_once_and_keeps_momentum(void **state)
     assert_near(energy + s.work - s.loss_energy, hand_kinetic(&m, &s), 1e-11);
 }
 
+/* Parts that come with gear 2 (E > 0) or go (E < 0), with the path in step already. What
+ * stays in motion keeps its momentum, the rest comes from or goes to standstill; back in
+ * neutral the other way round. */
+static void parts_of_a_gear_come_and_go_at_rest(void **state)
+{
+    (void)state;
+    for (int sign = -1; sign <= 1; sign += 2) {
+        hand_spec spec = hand_lossless();
+        const double extra = sign * 0.3 * spec.inertia_output, r = 9, w_o = 20;
+        spec.inertia_extra[1][0] = extra;
+        use(&spec);
+        gm_reduced_inputs in = hand_inputs(0, 0);
+        gm_reduced_state s = hand_start(&m, 0, 0, w_o);
+        s.path[1].w = r * w_o;
+        const double start = hand_kinetic(&m, &s);
+        const double before =
+            spec.inertia_output + fmin(extra, 0) + r * r * spec.inertia[1];
+        const double after = spec.inertia_output + extra + r * r * spec.inertia[1];
+        in.gear[1] = 2;
+        step(&in, 1e-3, &s);
+        assert_int_equal(s.path[1].mode, GM_PATH_ENGAGED);
+        assert_near(s.w_o, w_o * before / after, 1e-12);
+        assert_near(start - s.loss_energy, hand_kinetic(&m, &s), 1e-12);
+        assert_true(s.loss_energy > 0);
+        const double w = s.w_o, lost = s.loss_energy;
+        in.gear[1] = 0;
+        step(&in, 1e-3, &s);
+        assert_near(s.w_o,
+                    w * (spec.inertia_output + fmin(extra, 0)) / spec.inertia_output,
+                    1e-12);
+        assert_near(s.path[1].w, r * w, 1e-12);
+        assert_near(start - s.loss_energy, hand_kinetic(&m, &s), 1e-12);
+        assert_true(s.loss_energy > lost);
+    }
+}
+
+/* Torque on the output meets J_out + r^2 J_p + J_g. */
+static void parts_of_a_gear_take_part(void **state)
+{
+    (void)state;
+    hand_spec spec = hand_lossless();
+    gm_reduced_outputs out;
+    spec.inertia_extra[0][0] = 0.25;
+    use(&spec);
+    gm_reduced_inputs in = hand_inputs(spec.number[0][0], 0);
+    gm_reduced_state s = hand_start(&m, spec.number[0][0], 0, 10);
+    const double r = spec.ratio[0][0];
+    const double j = spec.inertia_output + r * r * spec.inertia[0] + 0.25;
+    in.output_tau = 3;
+    in.path_tau[0] = 2;
+    assert_int_equal(gm_reduced_outputs_at(&m.map, &params, &in, &s, &out), 0);
+    assert_near(out.a_o, (3 + 2 * r) / j, 1e-12);
+    assert_near(out.kinetic_energy, j * 100 / 2, 1e-12);
+}
+
+/* A path without drag tables is always in its gear. */
+static void a_path_without_neutral_starts_and_stays_in_gear(void **state)
+{
+    (void)state;
+    hand_spec spec = hand_default();
+    gm_reduced_state s;
+    spec.n_paths = 1;
+    spec.n_gears[0] = 1;
+    use(&spec);
+    memset(m.map.path[0].drag, 0, sizeof m.map.path[0].drag);
+    memset(m.map.path[0].reaction, 0, sizeof m.map.path[0].reaction);
+    m.map.path[0].n_lines = 0;
+    m.configuration[0].parasitic[0].value = m.configuration[0].parasitic[1].value = NULL;
+    assert_false(gm_reduced_has_neutral(&m.map, 0));
+    assert_int_equal(gm_reduced_find_gear(&m.map, 0, GM_NEUTRAL), -2);
+    gm_reduced_inputs in = hand_inputs(GM_NEUTRAL, 0);
+    const double w[2] = {0, 0}, r = spec.ratio[0][0];
+    assert_int_equal(gm_reduced_start(&m.map, &in, 10, w, &s), GM_FLAG_GEAR_REFUSED_0);
+    assert_int_equal(s.path[0].mode, GM_PATH_ENGAGED);
+    assert_near(s.path[0].w, 10 * r, 1e-12);
+    in.path_tau[0] = 5;
+    for (int i = 0; i < 100; i++) {
+        assert_int_equal(step(&in, 1e-2, &s), GM_FLAG_GEAR_REFUSED_0);
+        assert_int_equal(s.path[0].mode, GM_PATH_ENGAGED);
+        assert_true(s.path[0].w == r * s.w_o);
+    }
+    in.gear[0] = spec.number[0][0];
+    assert_int_equal(step(&in, 1e-2, &s), 0);
+}
+
 static void an_impulse_moves_a_standing_output(void **state)
 {
     const hand_spec spec = hand_default();
@@ -225,6 +310,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(synchronises_in_the_time_that_capacity_and_inertia_give),
         cmocka_unit_test(infinite_capacity_engages_at_once_and_keeps_momentum),
+        cmocka_unit_test(parts_of_a_gear_come_and_go_at_rest),
+        cmocka_unit_test(parts_of_a_gear_take_part),
+        cmocka_unit_test(a_path_without_neutral_starts_and_stays_in_gear),
         cmocka_unit_test(an_impulse_moves_a_standing_output),
         cmocka_unit_test(engages_at_once_at_standstill),
         cmocka_unit_test(a_gear_can_be_taken_back_half_way),
