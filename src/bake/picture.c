@@ -34,7 +34,8 @@ static const gm_configuration *configuration_of(const gm_reduced_map *map, int p
     for (int i = 0; i < map->n_configurations; i++) {
         const gm_configuration *c = &map->configurations[i];
         bool alone = map->n_paths == 1 || c->gear[1 - p] < 0;
-        if (c->gear[p] == g && (!found || alone))
+        bool possible = c->parasitic[GM_FORWARD].value != NULL;
+        if (c->gear[p] == g && possible && (!found || alone))
             found = c;
     }
     return found;

@@ -110,6 +110,13 @@ static void compare_loss(const gm_verify_draw *draw, int n_paths, const both_ans
     sample->reduced = at->reduced.loss_power / fabs(sample->speed);
 }
 
+/* A difference of torques of this size, or 0 where it is no more than what the solver
+   leaves: nothing may be between a path and the output. */
+static double beyond_rounding(double difference, double size)
+{
+    return fabs(difference) > 1e-9 * fabs(size) ? difference : 0.0;
+}
+
 /* Against the same point with the path at rest. */
 static gm_status compare_reaction(const gm_verify_draw *draw, gm_steady_solver *solver,
                                   const gm_reduced_probe *probe, gm_steady_point point,
@@ -122,8 +129,10 @@ static gm_status compare_reaction(const gm_verify_draw *draw, gm_steady_solver *
     gm_status status = ask(solver, probe, &point, &resting, error);
     if (status != GM_OK)
         return status;
-    sample->detailed = turning->detailed.torque[0] - resting.detailed.torque[0];
-    sample->reduced = turning->reduced.output_reaction - resting.reduced.output_reaction;
+    double torque = resting.detailed.torque[0];
+    sample->detailed = beyond_rounding(turning->detailed.torque[0] - torque, torque);
+    sample->reduced = beyond_rounding(
+        turning->reduced.output_reaction - resting.reduced.output_reaction, torque);
     return GM_OK;
 }
 
