@@ -261,6 +261,8 @@ static gm_status build_configurations(const builder *b)
 static double value_at(const gm_table1 *t, double x)
 {
     gm_cell1 cell = {0};
+    if (!t->value)
+        return 0.0;
     return gm_table1_at(t, 1, &cell, x).value;
 }
 
@@ -292,7 +294,7 @@ static void limit_pin(const builder *b, int p, int g, int d)
         for (int c = 0; c < reduced->n_configurations; c++) {
             const gm_configuration *at = &reduced->configurations[c];
             double w_o = x->x[i] / fabs(gear->ratio);
-            if (at->gear[p] != g)
+            if (at->gear[p] != g || !at->parasitic[d_o].value)
                 continue;
             double most = value_at(&at->parasitic[d_o], w_o);
             double sum = pins_of(reduced, at, d_o, w_o);
@@ -306,7 +308,8 @@ static void limit_pins(const builder *b)
     for (int p = 0; p < b->view->reduced.n_paths; p++)
         for (int g = 0; g < b->view->reduced.path[p].n_gears; g++)
             for (int d = 0; d < 2; d++)
-                limit_pin(b, p, g, d);
+                if (b->view->gears[p][g].pin[d].value)
+                    limit_pin(b, p, g, d);
 }
 
 static gm_status build(const builder *b)
