@@ -225,7 +225,11 @@ static const unit_type units[] = {
      .rad = 1, .display = {"deg", DEGREES, 0.0}},
     {.unit = "rad/s", .type = "AngularVelocity", .quantity = "AngularVelocity",
      .s = -1, .rad = 1, .display = {"rpm", RPM, 0.0}},
-    {.unit = "s", .type = "Time", .quantity = "Time", .s = 1, .display = {"ms", 1e3, 0.0}},
+    {.unit = "s",
+     .type = "Time",
+     .quantity = "Time",
+     .s = 1,
+     .display = {"ms", 1e3, 0.0}},
     {.unit = "rad/s2", .type = "AngularAcceleration", .quantity = "AngularAcceleration",
      .s = -2, .rad = 1},
 };

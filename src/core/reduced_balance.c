@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * The balance of torques on the shafts at one place, and the linear system for the changes
- * of the accelerations that one pass solves: balances and equations of reduced_solve.c
- * with the gradients of all terms.
+ * The balance of torques on the shafts at one place, and the linear system for the
+ * changes of the accelerations that one pass solves: balances and equations of
+ * reduced_solve.c with the gradients of all terms.
  *
  * Gradients that would take the matrix near singularity (a map that is not monotone, with
  * a long step) are dropped: the terms are then explicit, the account stays exact.

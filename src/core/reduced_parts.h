@@ -194,8 +194,8 @@ int gm_configuration_index(const gm_reduced_map *map, const gm_path_state *paths
 void gm_make_drive(const gm_reduced_map *map, const gm_reduced_params *params,
                    const gm_motion *s, gm_reduced_cache *cache, gm_drive *d);
 
-/** Whether the vibrations of elastic paths are followed in a step of h seconds cut into so
- *  many parts: (omega h / parts)^2 <= 4. */
+/** Whether the vibrations of elastic paths are followed in a step of h seconds cut into
+ *  so many parts: (omega h / parts)^2 <= 4. */
 static inline int gm_is_followed(const gm_drive *d, gm_real h, int parts)
 {
     return d->stiff * h * h <= 4 * parts * parts;
@@ -284,9 +284,9 @@ static inline gm_real gm_slip(const gm_drive *d, const gm_point *at, int p)
     return at->m[p] - d->ratio[p] * at->m[GM_OUT];
 }
 
-/** Torques of all springs that fit the slips they cause. In: s->slip and s->spring, where
- *  the springs are read first; s->point.spring, the reference. Out: the slips, the springs
- *  there, and the torques in s->point.spring. */
+/** Torques of all springs that fit the slips they cause. In: s->slip and s->spring,
+ *  where the springs are read first; s->point.spring, the reference. Out: the slips,
+ *  the springs there, and the torques in s->point.spring. */
 void gm_springs_meet(const gm_drive *d, const gm_yield *yield, gm_solution *s);
 
 /** Pin and transmitted torque of elastic path p, for direction sign_o of the output, with

@@ -3,8 +3,8 @@
  * The driver: a proportional and integral controller on the speed error with feed-forward
  * of the trace's acceleration, the road load and the hill. What it wants at the wheels
  * becomes engine torque and, where the engine's drag does not reach, brake force. While
- * the cycle stands still the pedal is released and the brake holds the car: its force carries
- * what the hill pulls, and against motion comes what stops the car.
+ * the cycle stands still the pedal is released and the brake holds the car: its force
+ * carries what the hill pulls, and against motion comes what stops the car.
  *
  * Everything is continuous, so that what a comparison sees is the gearset's doing.
  */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * Friction rigs in both fidelities, against solutions with events in closed form: a mass J
- * under dry friction F_+ forward and F_- backward,
+ * Friction rigs in both fidelities, against solutions with events in closed form: a mass
+ * J under dry friction F_+ forward and F_- backward,
  *
  *   J dw/dt = tau(t) - F_+        w > 0, or w = 0 and tau > F_+
  *   J dw/dt = tau(t) + F_-        w < 0, or w = 0 and tau < -F_-
@@ -211,8 +211,8 @@ static void rigs_move_as_the_reference(void **state)
     }
 }
 
-/* A load on a hill within the band, with a motor that hums: once at rest it stays for good,
- * whatever the steps. */
+/* A load on a hill within the band, with a motor that hums: once at rest it stays for
+ * good, whatever the steps. */
 static void nothing_creeps(void **state)
 {
     unsigned seed = 4;

@@ -2,8 +2,8 @@
  *
  * What the standard allows: the state of an instance as its host must see it, and whether
  * a call with given arguments is legal then. Written from FMI 2.0.3 (section 2.1.7 on
- * values, the tables of sections 3.2.3 and 4.2.4 on the order of calls) and the variables'
- * list, not from the component's code.
+ * values, the tables of sections 3.2.3 and 4.2.4 on the order of calls) and the
+ * variables' list, not from the component's code.
  */
 #ifndef CALL_ORACLE_H
 #define CALL_ORACLE_H

@@ -21,8 +21,8 @@ static void assert_number(const random_run *r, unsigned vr, double value)
         fail_msg("value reference %u is %g in state %d", vr, value, r->oracle.state);
 }
 
-/* While a solver moves the states only continuous inputs may change; that others are taken
- * too, for the next event, is kind to simulators that set all inputs at once. */
+/* While a solver moves the states only continuous inputs may change; that others are
+ * taken too, for the next event, is kind to simulators that set all inputs at once. */
 static void mark_change(random_run *r, const gm_variable *v)
 {
     r->oracle.update_due = true;

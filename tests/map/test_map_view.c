@@ -107,7 +107,8 @@ static void shows_lines_that_jump(void **state)
     gm_map_destroy(map);
 }
 
-/* N of a law that the tables hold exactly: dry friction, and one that follows the slip. */
+/* N of a law that the tables hold exactly: dry friction, and one that follows the
+ * slip. */
 static double law_of_drag(double w, double w_o)
 {
     return (w < 0 ? -0.4 : 0.4) + 1e-3 * (w - 2.0 * w_o);
