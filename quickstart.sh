@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-2-Clause
 # From a bare Debian or Ubuntu machine to a simulated FMU: installs what is missing,
-# builds, reduces the 7-speed dual-clutch example, simulates it, prints a summary.
+# builds, reduces the 7-speed dual-clutch example, simulates it, and drives a car over a
+# cycle with the detailed and with the reduced gearset to compare them.
 set -euo pipefail
 cd "$(dirname "$0")"
 . tools/setup.sh
@@ -17,5 +18,8 @@ build/gearmap reduce examples/dct7.yaml -o build/dct7.fmu --map build/dct7.map
 
 gm_say "simulating build/dct7.fmu"
 build/venv/bin/python examples/simulate.py build/dct7.fmu build/dct7.csv
+
+gm_say "driving ECE-15 with the detailed and the reduced gearset"
+build/gearmap verify examples/dct7.yaml build/dct7.fmu --cycle ece15 --summary
 
 gm_say "done in $((SECONDS - start)) s: build/dct7.fmu, build/dct7.map, build/dct7.csv"

@@ -17,7 +17,7 @@
 
 typedef struct arguments {
     const char *description, *fmu;
-    int steady, points, seed, json;
+    int steady, points, seed, summary, json;
     double oil_temperature;
     gm_cycle_settings drive;
 } arguments;
@@ -48,6 +48,9 @@ static const gm_option options[] = {
      .low = 1e-10, .high = 1e-2, .fallback = "1e-6",
      .offset = offsetof(arguments, drive.tolerance),
      .help = "with --cycle: relative error of a step of the solver"},
+    {.kind = GM_OPTION_FLAG, .name = "summary", .offset = offsetof(arguments, summary),
+     .help = "with --cycle: print the small table alone, without gears, shifts and the "
+             "places of the largest differences"},
     {.kind = GM_OPTION_TEXT, .name = "trace", .value = "FILE.csv",
      .offset = offsetof(arguments, drive.trace),
      .help = "with --cycle: write the drives over time"},
@@ -72,7 +75,9 @@ static void print_text(const void *result, FILE *out)
         gm_verify_stage_print(&v->stage, out);
     if (v->asked->steady && v->asked->drive.cycle)
         fputc('\n', out);
-    if (v->asked->drive.cycle)
+    if (v->asked->drive.cycle && v->asked->summary)
+        gm_cycle_stage_print_table(&v->cycle, out);
+    else if (v->asked->drive.cycle)
         gm_cycle_stage_print(&v->cycle, out);
 }
 
@@ -166,6 +171,8 @@ static const char *usage_problem(const arguments *a)
         return "verify needs --steady, --cycle CYCLE or both";
     if (a->drive.trace && !a->drive.cycle)
         return "--trace needs --cycle";
+    if (a->summary && !a->drive.cycle)
+        return "--summary needs --cycle";
     if (a->drive.vehicle && !a->drive.cycle)
         return "--vehicle needs --cycle";
     if (strcmp(fidelity, "rigid") != 0 && strcmp(fidelity, "lash") != 0 &&

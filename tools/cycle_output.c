@@ -118,15 +118,49 @@ static void worst_json(const gm_comparison *c, gm_json *json)
     gm_json_end(json);
 }
 
-static void run_json(const gm_cycle_stage *stage, const gm_cycle_run *run, gm_json *json)
+static void reduced_json(const gm_cycle_stage *stage, const gm_cycle_run *run,
+                         gm_json *json)
 {
     gm_json_text(json, "fidelity", gm_fidelity_name(run->fidelity));
     record_json(stage, run->record, json);
+}
+
+static void figures_json(const gm_cycle_stage *stage, const gm_cycle_run *run,
+                         gm_json *json)
+{
     gm_json_number(json, "cpu_saved", run->comparison.cpu_saved);
     errors_json(stage, &run->comparison, json);
     gears_json(&run->comparison, json);
     shifts_json(&run->comparison, json);
     worst_json(&run->comparison, json);
+}
+
+/* The larger one of both drives. */
+static double worst_balance(const gm_cycle_stage *stage, const gm_cycle_run *run)
+{
+    return fmax(balance(stage->detailed), balance(run->record));
+}
+
+static void one_json(const gm_cycle_stage *stage, const gm_cycle_run *run, gm_json *json)
+{
+    gm_json_object(json, "reduced");
+    reduced_json(stage, run, json);
+    gm_json_end(json);
+    figures_json(stage, run, json);
+    gm_json_number(json, "energy_balance_relative", worst_balance(stage, run));
+}
+
+/* Several fidelities: an array, each with its own figures. */
+static void all_json(const gm_cycle_stage *stage, gm_json *json)
+{
+    gm_json_array(json, "reduced");
+    for (int i = 0; i < stage->n_runs; i++) {
+        gm_json_object(json, NULL);
+        reduced_json(stage, &stage->run[i], json);
+        figures_json(stage, &stage->run[i], json);
+        gm_json_end(json);
+    }
+    gm_json_end(json);
 }
 
 void gm_cycle_stage_json(const gm_cycle_stage *stage, gm_json *json)
@@ -138,13 +172,10 @@ void gm_cycle_stage_json(const gm_cycle_stage *stage, gm_json *json)
     gm_json_object(json, "detailed");
     record_json(stage, stage->detailed, json);
     gm_json_end(json);
-    gm_json_array(json, "reduced");
-    for (int i = 0; i < stage->n_runs; i++) {
-        gm_json_object(json, NULL);
-        run_json(stage, &stage->run[i], json);
-        gm_json_end(json);
-    }
-    gm_json_end(json);
+    if (stage->n_runs == 1)
+        one_json(stage, &stage->run[0], json);
+    else
+        all_json(stage, json);
 }
 
 /* ---- text ---- */

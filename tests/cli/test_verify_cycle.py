@@ -77,6 +77,14 @@ def test_a_cycle_of_ones_own(example_fmu, tmp_path):
     got = result_of("verify", EXAMPLE, example_fmu, "--cycle", cycle, "--fidelity", "rigid",
                     "--tolerance", "1e-4")
     assert got["cycle"] == "hill" and got["duration_s"] == 20
+    # with one fidelity the figures stand at the top
+    assert got["reduced"]["fidelity"] == "rigid"
+    assert got["reduced"]["real_time_factor"] == pytest.approx(20 / got["reduced"]["cpu_s"])
+    assert got["cpu_saved"] == pytest.approx(
+        1 - got["reduced"]["cpu_s"] / got["detailed"]["cpu_s"])
+    assert set(got["errors"]) == FIGURES and got["loss_by_gear"] and got["worst"]
+    assert got["energy_balance_relative"] == max(
+        got[run]["energy_balance_relative"] for run in ("detailed", "reduced"))
     cycle.write_text("time_s,speed_km_h\n0,0\n5,20 km/h\n")
     assert fails("verify", EXAMPLE, example_fmu, "--cycle", cycle) == (
         f"{cycle}:3: column speed_km_h: found '20 km/h', expected a number")
@@ -93,8 +101,7 @@ def test_another_vehicle(example_fmu, tmp_path):
     options = ["--cycle", cycle, "--fidelity", "rigid", "--tolerance", "1e-4"]
     usual = result_of("verify", EXAMPLE, example_fmu, *options)
     heavy = result_of("verify", EXAMPLE, example_fmu, *options, "--vehicle", vehicle)
-    loss = [sum(row["detailed_J"] for row in run["loss_by_gear"])
-            for run in (usual["reduced"][0], heavy["reduced"][0])]
+    loss = [sum(row["detailed_J"] for row in got["loss_by_gear"]) for got in (usual, heavy)]
     assert loss[1] > 1.1 * loss[0]
     assert heavy["detailed"]["energy_balance_relative"] < 1e-3
     vehicle.write_text(text.replace("mass_kg: 1416", "mass_kg: 1.4 t"))
