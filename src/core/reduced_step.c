@@ -301,16 +301,34 @@ static gm_real part_of(const gm_drive *d, const gm_span *span)
     return span->rest / left;
 }
 
-/* Whether the springs' torques stay nearly what they are: there is no vibration that
- * would be worth following in parts of the step. */
-static int is_calm(const gm_drive *d, const gm_solution *s)
+/* Whether a spring's torque stays nearly what it is: there is no vibration that would be
+ * worth following in parts of the step. */
+static int stays_calm(const gm_drive *d, int p, gm_real torque)
+{
+    const gm_real now = gm_spring_rest_torque(d->gear[p], d->twist[p]);
+    return gm_abs(torque - now) <= CALM * gm_abs(now) + CALM_NM;
+}
+
+/* Judged by the slips that there are, over half of the rest of the step. */
+static int may_be_calm(const gm_drive *d, gm_real rest)
 {
     for (int p = 0; p < d->n_paths; p++) {
         if (d->elastic[p]) {
-            const gm_real now = gm_spring_rest_torque(d->gear[p], d->twist[p]);
-            if (gm_abs(s->point.spring[p] - now) > CALM * gm_abs(now) + CALM_NM) {
+            const gm_real slip = d->w[p] - d->ratio[p] * d->w[GM_OUT];
+            const gm_real twist = d->twist[p] + rest / 2 * slip;
+            if (!stays_calm(d, p, gm_spring_rest_torque(d->gear[p], twist))) {
                 return 0;
             }
+        }
+    }
+    return 1;
+}
+
+static int is_calm(const gm_drive *d, const gm_solution *s)
+{
+    for (int p = 0; p < d->n_paths; p++) {
+        if (d->elastic[p] && !stays_calm(d, p, s->point.spring[p])) {
+            return 0;
         }
     }
     return 1;
@@ -320,7 +338,7 @@ static int is_calm(const gm_drive *d, const gm_solution *s)
 static void solve_part(const gm_reduced_inputs *in, const gm_span *span, gm_real part,
                        gm_drive *d, gm_solution *solution)
 {
-    if (part < span->rest && span->start == 0) {
+    if (part < span->rest && span->start == 0 && may_be_calm(d, span->rest)) {
         gm_set_span(in, 0, span->rest, d);
         gm_solve(d, solution);
         if (is_calm(d, solution)) {
