@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * bench_lookup: value and both gradients from a table of 45 x 9, chained (each query waits
- * for the result of the last, as in a simulation), beside the bilinear interpolation of the
- * GNU Scientific Library with its accelerators, in the same run. The point moves slowly,
+ * bench_lookup: value and both gradients from a table of 45 x 9, chained (each query
+ * waits for the result of the last, as in a simulation), beside the bilinear
+ * interpolation of the GNU Scientific Library with its accelerators, in the same run.
+ * The point moves slowly,
  * as an operating point does, or jumps. Medians over blocks, as JSON, nanoseconds.
  */
 #include "core/cell.h" /* as the core itself reads its tables */
