@@ -174,6 +174,32 @@ gm_status gm_check_shafts(const gm_description *d, gm_error *error)
     return status;
 }
 
+static gm_status check_third_viscosity(const gm_description *d, gm_error *error)
+{
+    const gm_oil_part *oil = &d->oil;
+    double T = oil->third_temperature - 273.15;
+    gm_vogel v;
+    if (isnan(oil->third_viscosity) && isnan(T))
+        return GM_OK;
+    if (isnan(oil->third_viscosity) || isnan(T))
+        return gm_description_fail(d->file, 1, "oil", GM_ERR_MODEL, error,
+                                   "third_viscosity_mm2_s and third_temperature_degC "
+                                   "need each other");
+    if (fabs(T - 40.) < 5. || fabs(T - 100.) < 5.)
+        return gm_description_fail(d->file, 1, "oil", GM_ERR_MODEL, error,
+                                   "third_temperature_degC must be at least 5 K from 40 "
+                                   "and 100 degC; found %.6g",
+                                   T);
+    if (!gm_oil_vogel(oil, &v))
+        return gm_description_fail(
+            d->file, 1, "oil", GM_ERR_MODEL, error,
+            "third_viscosity_mm2_s, %.6g at %.6g degC, lies on no curve by Vogel's "
+            "equation through %.6g at 40 and %.6g at 100 degC",
+            1e6 * oil->third_viscosity, T, 1e6 * oil->viscosity_40,
+            1e6 * oil->viscosity_100);
+    return GM_OK;
+}
+
 static gm_status check_oil(const gm_description *d, gm_error *error)
 {
     if (!(d->oil.viscosity_100 < d->oil.viscosity_40))
@@ -181,7 +207,7 @@ static gm_status check_oil(const gm_description *d, gm_error *error)
                                    "viscosity_100_mm2_s must be less than "
                                    "viscosity_40_mm2_s; found %.6g and %.6g",
                                    1e6 * d->oil.viscosity_100, 1e6 * d->oil.viscosity_40);
-    return GM_OK;
+    return check_third_viscosity(d, error);
 }
 
 gm_status gm_check_description(const gm_description *d, gm_error *error)

@@ -282,7 +282,9 @@ const gm_path_gear *gm_path_gear_of(const gm_path_part *path, int number);
 typedef struct gm_oil_part {
     char name[GM_NAME_SIZE];
     double viscosity_40, viscosity_100; /* kinematic, m2/s */
-    double density_15;                  /* kg/m3 */
+    double third_viscosity;       /* likewise at third_temperature; NAN or 0: Walther */
+    double third_temperature;     /* K */
+    double density_15;            /* kg/m3 */
     double thermal_expansion;     /* alpha of rho = rho15 (1 - alpha (T - 15)), 1/K */
     double temperature;           /* K */
     double mesh_lubricant_factor; /* X_L of ISO/TR 14179-2 */

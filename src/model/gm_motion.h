@@ -82,6 +82,10 @@ void gm_motion_view_at(gm_motion *motion, const gm_motion_input *input, const do
 /** What can be recorded; names are the motion's. */
 int gm_motion_n_signals(const gm_motion *motion);
 gm_motion_signal gm_motion_signal_at(const gm_motion *motion, int i);
+
+/** Name of the signal that shows state i: a speed or a deflection of a mesh by itself,
+ *  other deflections by the torque that they cause. The motion's. */
+const char *gm_motion_state_name(const gm_motion *motion, int i);
 void gm_motion_observe(gm_motion *motion, const gm_motion_input *input, const double *x,
                        double *value);
 

@@ -112,6 +112,32 @@ gm_motion_signal gm_motion_signal_at(const gm_motion *motion, int i)
     return motion->signals[i];
 }
 
+static int bearing_of_state(const gm_motion *motion, int state)
+{
+    int i = 0;
+    while (motion->bearing[i].state != state)
+        i++;
+    return i;
+}
+
+const char *gm_motion_state_name(const gm_motion *motion, int i)
+{
+    const gm_gearset *g = motion->gearset;
+    int mesh = motion->n_nodes, lock = mesh + g->n_meshes;
+    int piece = lock + motion->n_locks, bristle = piece + motion->nodes.n_pieces;
+    int locks = mesh + 2 * g->n_meshes, bearings = locks + 2 * motion->n_locks;
+    int at = i;
+    if (i >= bristle)
+        at = bearings + 3 * bearing_of_state(motion, i) + 2;
+    else if (i >= piece)
+        at = bearings + 3 * g->n_bearings + i - piece;
+    else if (i >= lock)
+        at = locks + 2 * (i - lock);
+    else if (i >= mesh)
+        at = mesh + 2 * (i - mesh) + 1;
+    return motion->signals[at].name;
+}
+
 void gm_motion_observe(gm_motion *motion, const gm_motion_input *input, const double *x,
                        double *value)
 {

@@ -27,6 +27,11 @@ static const gm_field oil_fields[] = {
      .help = "kinematic viscosity at 40 degC"},
     {NUMBER("viscosity_100_mm2_s", 1, 1000), AT(viscosity_100),
      .help = "kinematic viscosity at 100 degC"},
+    {NUMBER("third_viscosity_mm2_s", 1, 1e6), AT(third_viscosity), OPTIONAL,
+     .help = "kinematic viscosity at third_temperature_degC; with it the curve is "
+             "Vogel's through all three, without it that of ASTM D341"},
+    {NUMBER("third_temperature_degC", -40, 200), AT(third_temperature), OPTIONAL,
+     .help = "where third_viscosity_mm2_s holds, at least 5 K from 40 and 100 degC"},
     {NUMBER("density_15_kg_m3", 500, 1500), AT(density_15), .help = "density at 15 degC"},
     {NUMBER("thermal_expansion_1_K", 0, 0.01), AT(thermal_expansion), DEFAULT("7e-4"),
      .help = "alpha in rho = rho_15 (1 - alpha (T - 15 degC))"},

@@ -102,6 +102,11 @@ static gm_motion_signal signal_at(const void *motion, int i)
     return gm_motion_signal_at(motion, i);
 }
 
+static const char *state_name(const void *motion, int i)
+{
+    return gm_motion_state_name(motion, i);
+}
+
 static void observe(void *motion, const gm_motion_input *input, const double *x,
                     double *value)
 {
@@ -127,6 +132,7 @@ static const gm_dynamics_class motion_class = {
     .view = view,
     .n_signals = n_signals,
     .signal = signal_at,
+    .state_name = state_name,
     .observe = observe,
 };
 

@@ -118,6 +118,22 @@ static const gm_test_rule rules[] = {
     {"  odd:\n", "  third: {shaft: output_1}\n  odd:\n",
      "\npaths:", "paths has at most 2 entries, found 3", GM_ERR_FORMAT, NULL},
     /* oil and shafts */
+    {"viscosity_100_mm2_s: 5.9", "viscosity_100_mm2_s: 5.9\n  third_viscosity_mm2_s: 9.1",
+     NULL, "oil: third_viscosity_mm2_s and third_temperature_degC need each other",
+     GM_ERR_MODEL, NULL},
+    {"viscosity_100_mm2_s: 5.9",
+     "viscosity_100_mm2_s: 5.9\n  third_viscosity_mm2_s: 9.1\n"
+     "  third_temperature_degC: 98",
+     NULL,
+     "oil: third_temperature_degC must be at least 5 K from 40 and 100 degC; found 98",
+     GM_ERR_MODEL, NULL},
+    {"viscosity_100_mm2_s: 5.9",
+     "viscosity_100_mm2_s: 5.9\n  third_viscosity_mm2_s: 20\n"
+     "  third_temperature_degC: 80",
+     NULL,
+     "oil: third_viscosity_mm2_s, 20 at 80 degC, lies on no curve by Vogel's equation "
+     "through 30.8 at 40 and 5.9 at 100 degC",
+     GM_ERR_MODEL, NULL},
     {"viscosity_100_mm2_s: 5.9", "viscosity_100_mm2_s: 59", NULL,
      "oil: viscosity_100_mm2_s must be less than viscosity_40_mm2_s; found 59 and 30.8",
      GM_ERR_MODEL, NULL},

@@ -10,6 +10,8 @@
 #include "model/motion.h"
 #include "model/power.h"
 
+#include <string.h>
+
 /* Input shaft from 0 to 160 mm: 30 mm, hollow 10 mm up to 100 mm, then 20 mm solid. */
 static gm_segment stepped[2] = {
     {.from = 0., .to = 0.1, .diameter = 0.030, .bore = 0.010},
@@ -123,6 +125,34 @@ static void a_held_shaft_twists(void **state)
     moving_clear(&m);
 }
 
+/* Every state has a name, and the signals of that name that are states show them. */
+static void states_have_the_names_of_signals(void **state)
+{
+    (void)state;
+    for (int holding = 0; holding < 2; holding++) {
+        moving m;
+        const double speed[GM_MAX_FLANGES] = {100., 50., 10.};
+        if (holding)
+            moving_read_holding(&m, MOTION_EXAMPLES "dct7.yaml");
+        else
+            moving_read_twisting(&m, MOTION_EXAMPLES "dct7.yaml");
+        moving_start(&m, speed);
+        for (int i = 0; i < m.n; i++)
+            m.x[i] = 1e-4 * (i + 1);
+        int shown = m.motion->n_nodes + m.gearset->n_meshes;
+        for (int i = 0; i < m.n; i++) {
+            const char *name = gm_motion_state_name(m.motion, i);
+            double value = moving_signal(&m, name);
+            assert_true(i >= shown || value == m.x[i]);
+            for (int k = 0; k < i; k++)
+                assert_string_not_equal(name, gm_motion_state_name(m.motion, k));
+        }
+        const char *last = gm_motion_state_name(m.motion, m.n - 1);
+        assert_ptr_equal(strstr(last, holding ? "bearing." : "shaft."), last);
+        moving_clear(&m);
+    }
+}
+
 /* All shafts of the example twist: inertia stays, the account closes. Runge-Kutta of
  * fourth order at 0.2 us; the stiffest piece has 40 kHz. */
 static void the_account_closes_with_torsion(void **state)
@@ -179,6 +209,7 @@ int main(void)
         cmocka_unit_test(stations_are_where_torque_enters),
         cmocka_unit_test(compliance_adds_the_pieces),
         cmocka_unit_test(a_held_shaft_twists),
+        cmocka_unit_test(states_have_the_names_of_signals),
         cmocka_unit_test(the_account_closes_with_torsion),
         cmocka_unit_test(without_memory_nothing_is_left_behind),
     };

@@ -5,7 +5,7 @@
  *   FZG gear C14, geometry                          test_pair.c
  *   FZG gear C14, loss; third gear and final drive  test_mesh.c
  *   LossyGear, ISO/TR 14179-1 mesh                  test_mesh.c
- *   75W oil, -20 to 120 degC                        test_oil.c
+ *   75W oil by ASTM D341 and by Vogel               test_oil.c
  *   6206 and 30206 by SKF, oil bath, seals          test_bearing_skf.c
  *   6206 by Palmgren                                test_bearing_palmgren.c
  *   Stribeck curve, film of a plain bearing         test_bearing_sliding.c
