@@ -21,7 +21,7 @@ struct gm_trip {
     int speed_state[GM_MAX_FLANGES]; /* among all states */
     gm_motion_input input;
     gm_car_time instant; /* of the last evaluation: several have the same time */
-    double gearset_time; /* s */
+    double gearset_time, clock_cost; /* s */
     unsigned evaluations;
     /* pattern, and where an entry of the full matrix stands in it */
     int *column_start, *row, *place;
