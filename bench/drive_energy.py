@@ -147,7 +147,7 @@ def closing_loss(m, p, w_o, w, gear, before, after):
 
 class Component:
     NAMES = ["odd.w", "even.w", "output.w", "odd.phi", "even.phi", "output.phi", "work",
-             "loss_energy", "kinetic_energy"]
+             "loss_energy", "kinetic_energy", "elastic_energy"]
 
     def __init__(self, path):
         description = read_model_description(path)
@@ -194,7 +194,7 @@ def drive(component, m, h):
     """Run the scenario; returns the account as a dict of energies in J."""
     gears = [latest(GEAR[n], 0.0) for n in ("odd", "even")]
     component.start(gears)
-    (w0, w1, wo, p0, p1, po, *_, kinetic_start), mode = component.observe()
+    (w0, w1, wo, p0, p1, po, *_, kinetic_start, elastic_start), mode = component.observe()
     engine, twist, v = IDLE, 0.0, 0.0
     work = lost = 0.0
     account = creep = 0.0
@@ -209,13 +209,14 @@ def drive(component, m, h):
         pull = STIFFNESS * twist + DAMPING * (wo - v / WHEEL)
         component.fmu.setReal(component.torque, [*tau, -pull])
         component.fmu.doStep(t, h)
-        (n0, n1, no, q0, q1, qo, total, loss, kinetic), after = component.observe()
+        (n0, n1, no, q0, q1, qo, total, loss, kinetic, elastic), after = component.observe()
         work += tau[0] * (q0 - p0) + tau[1] * (q1 - p1) - pull * (qo - po)
         lost += h * loss_power(m, 0.5 * (wo + no), (0.5 * (w0 + n0), 0.5 * (w1 + n1)),
                                (no - wo) / h, tau, gears, after)
         lost += sum(closing_loss(m, p, wo, (w0, w1), gears, mode, after) for p in range(2))
         mode = after
-        account = max(account, abs(total - loss - (kinetic - kinetic_start)))
+        stored = kinetic - kinetic_start + elastic - elastic_start
+        account = max(account, abs(total - loss - stored))
         if 42.0 < t < 49.0 and v == 0.0:
             creep = max(creep, abs(no))
         engine += h * (linear(ENGINE, t) + 2.0 * max(0.0, IDLE - engine) - sum(tau)) \
