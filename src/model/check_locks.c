@@ -174,6 +174,24 @@ static gm_status check_path(const gm_description *d, const gm_path_part *path,
     return status;
 }
 
+/* Commands and results name a gear by its number alone. */
+static gm_status check_numbers(const gm_description *d, gm_error *error)
+{
+    const gm_path_part *odd = &d->paths[0], *even = &d->paths[1];
+    for (int i = 0; d->n_paths > 1 && i < even->n_gears; i++)
+        for (int k = 0; k < odd->n_gears; k++) {
+            gm_label id = even->id;
+            id.line = even->gears[i].line;
+            if (odd->gears[k].number == even->gears[i].number)
+                return gm_part_fail(
+                    d, "path", &id, error,
+                    "gear %d: a number stands for one gear; path '%s' has "
+                    "it in line %d",
+                    even->gears[i].number, odd->id.name, odd->gears[k].line);
+        }
+    return GM_OK;
+}
+
 gm_status gm_check_locks(const gm_description *d, gm_error *error)
 {
     gm_status status = GM_OK;
@@ -183,5 +201,5 @@ gm_status gm_check_locks(const gm_description *d, gm_error *error)
         status = check_clutch(d, &d->clutches[i], error);
     for (int p = 0; p < d->n_paths && status == GM_OK; p++)
         status = check_path(d, &d->paths[p], error);
-    return status;
+    return status == GM_OK ? check_numbers(d, error) : status;
 }

@@ -279,6 +279,9 @@ static const gm_test_rule rules[] = {
      "path 'odd': gear 5: a number stands for one gear; found it twice, here for "
      "'g5_driven'",
      GM_ERR_MODEL, NULL},
+    {"6: {lock", "7: {lock", "7: {lock: g6",
+     "path 'even': gear 7: a number stands for one gear; path 'odd' has it in line ",
+     GM_ERR_MODEL, "7: {lock: g7"},
     {"7: {lock: g7_driven, ratio: 2.5653}", "8: {lock: g6_driven}", "8: {lock",
      "path 'odd': gear 8: no chain of meshes leads from shaft 'input_odd' to the output "
      "'differential'; with gear 'g6_driven' locked to shaft 'output_2', neither of them "

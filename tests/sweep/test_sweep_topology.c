@@ -192,7 +192,7 @@ static const char hybrid[] =
     "cone_radius_mm: "
     "30,\n    cone_width_mm: 8, cone_clearance_mm: 0.2}\n"
     "paths:\n  odd: {shaft: engine, gears: {1: {lock: b}}}\n"
-    "  even: {shaft: motor, gears: {1: {lock: []}}}\n"
+    "  even: {shaft: motor, gears: {2: {lock: []}}}\n"
     "output: driven\n";
 
 static void one_path_of_two_can_do_without_neutral(void **state)
