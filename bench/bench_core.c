@@ -86,14 +86,15 @@ static void fill_path(int p, const int *numbers, const double *ratios)
         gear[p][g].number = numbers[g];
         gear[p][g].ratio = line[p][g].ratio = ratios[g];
         for (int dir = 0; dir < 2; dir++) {
-            gear[p][g].load_loss[dir] = (gm_table2){{N_W, w_p}, {N_T, torque}, load[0]};
-            line[p][g].jump[dir] = (gm_table1){{N_W, w_o}, jump};
+            gear[p][g].load_loss[dir] =
+                (gm_table2){{N_W, w_p}, {N_T, torque}, load[0], 0};
+            line[p][g].jump[dir] = (gm_table1){{N_W, w_o}, jump, 0};
         }
     }
     for (int i = 0; i < 4; i++) {
-        path->drag[i / 2][i % 2] = (gm_table2){{N_W, w_p}, {N_W, w_o}, drag[i / 2][0]};
+        path->drag[i / 2][i % 2] = (gm_table2){{N_W, w_p}, {N_W, w_o}, drag[i / 2][0], 0};
         path->reaction[i / 2][i % 2] =
-            (gm_table2){{N_W, w_p}, {N_W, w_o}, reaction[i / 2][0]};
+            (gm_table2){{N_W, w_p}, {N_W, w_o}, reaction[i / 2][0], 0};
     }
 }
 
@@ -108,7 +109,7 @@ static void make_map(void)
         c->gear[0] = i / 5 - 1;
         c->gear[1] = i % 5 - 1;
         for (int dir = 0; dir < 2; dir++) {
-            c->parasitic[dir] = (gm_table1){{N_W, w_o}, parasitic};
+            c->parasitic[dir] = (gm_table1){{N_W, w_o}, parasitic, 0};
             c->both_loaded[dir] =
                 (gm_table3){{4, coarse}, {N_T, torque}, {N_T, torque}, both[0][0]};
         }
@@ -118,22 +119,23 @@ static void make_map(void)
     fill_path(1, numbers[1], ratios[1]);
     map.n_configurations = N_CONFIGURATIONS;
     map.configurations = configuration;
-    map.coupling = (gm_table1){{N_T, relative}, coupling};
+    map.coupling = (gm_table1){{N_T, relative}, coupling, 0};
     map.inertia_output = 0.5;
 }
 
 /* Value and gradient, ns a query. stride: how far the point moves, in parts of the range.
  */
-static double time_lookup(double stride)
+static double time_lookup(double stride, int monotone)
 {
     static double blocks[BLOCKS];
-    const gm_table2 *t = &gear[0][0].load_loss[0];
+    gm_table2 t = gear[0][0].load_loss[0];
     gm_cell2 cell = {0};
     double x = 0.1, sum = 0;
+    t.monotone = monotone;
     for (int b = 0; b < BLOCKS; b++) {
         const double start = now_ns();
         for (int i = 0; i < CALLS; i++) {
-            const gm_value2 v = gm_table2_at(t, 1, &cell, 700 * x, 520 * (x - 0.5));
+            const gm_value2 v = gm_table2_at(&t, 1, &cell, 700 * x, 520 * (x - 0.5));
             x += stride + 1e-12 * v.value; /* waits for the value */
             x = x > 1 ? x - 1 : x;
             sum += v.dx + v.dy;
@@ -176,8 +178,10 @@ int main(void)
 {
     make_map();
     printf("state of an instance        %6zu bytes\n", sizeof(gm_reduced_state));
-    printf("lookup 2-D, same cell       %6.1f ns\n", time_lookup(1e-7));
-    printf("lookup 2-D, another cell    %6.1f ns\n", time_lookup(0.37));
+    printf("lookup 2-D, same cell       %6.1f ns\n", time_lookup(1e-7, 0));
+    printf("lookup 2-D, another cell    %6.1f ns\n", time_lookup(0.37, 0));
+    printf("monotone, same cell         %6.1f ns\n", time_lookup(1e-7, 1));
+    printf("monotone, another cell      %6.1f ns\n", time_lookup(0.37, 1));
     printf("step, 3rd gear, neutral     %6.1f ns\n", time_step(3, 0, 62, 1e-3));
     printf("step, 3rd, 4th preselected  %6.1f ns\n", time_step(3, 4, 62, 1e-3));
     printf("step, both paths neutral    %6.1f ns\n", time_step(0, 0, 62, 1e-3));

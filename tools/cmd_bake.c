@@ -11,7 +11,8 @@
 #include <string.h>
 
 typedef struct arguments {
-    const char *map, *output, *format, *compiler;
+    const char *map, *output, *format;
+    gm_bake_settings bake;
     int json;
 } arguments;
 
@@ -26,7 +27,7 @@ static const gm_option options[] = {
     {.kind = GM_OPTION_TEXT, .name = "format", .value = "NAME", .fallback = "fmu2",
      .offset = offsetof(arguments, format),
      .help = "fmu2: FMI 2.0, Model Exchange and Co-Simulation"},
-    GM_COMPILER_OPTION(arguments),
+    GM_BAKE_OPTIONS(arguments),
     GM_JSON_OPTION(arguments),
 };
 // clang-format on
@@ -62,8 +63,8 @@ static gm_status bake(const arguments *a, gm_error *error)
     if (status == GM_OK)
         status = gm_map_get_errors(a->map, &n_errors, &errors, error);
     if (status == GM_OK)
-        status = gm_stage_bake(map, n_errors, errors, a->compiler, a->output,
-                               &result.stage, error);
+        status = gm_stage_bake(map, n_errors, errors, &a->bake, a->output, &result.stage,
+                               error);
     if (status == GM_OK)
         status = gm_command_print(&form, a->json, &result, error);
     gm_map_errors_free(n_errors, errors);
@@ -79,6 +80,8 @@ static int run(const void *given)
         fprintf(stderr, "gearmap: bake knows no format '%s' (only fmu2)\n", a->format);
         return GM_EXIT_USAGE;
     }
+    if (!gm_stage_knows_interpolation(a->bake.interpolation))
+        return GM_EXIT_USAGE;
     return gm_command_end(bake(a, &error), &error);
 }
 

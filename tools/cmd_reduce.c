@@ -13,8 +13,9 @@
 #include <unistd.h>
 
 typedef struct arguments {
-    const char *description, *output, *map, *compiler;
+    const char *description, *output, *map;
     gm_sweep_settings sweep;
+    gm_bake_settings bake;
     int points, seed, json;
 } arguments;
 
@@ -29,7 +30,7 @@ static const gm_option options[] = {
      .help = "keep the map, with the measured errors, in this file; default: in memory "
              "only"},
     GM_SWEEP_OPTIONS(arguments),
-    GM_COMPILER_OPTION(arguments),
+    GM_BAKE_OPTIONS(arguments),
     GM_POINTS_OPTION(arguments),
     GM_SEED_OPTION(arguments),
     GM_JSON_OPTION(arguments),
@@ -104,7 +105,7 @@ static gm_status bake_and_verify(const arguments *a, reduction *r, const char *n
                                  gm_error *error)
 {
     gm_status status =
-        gm_stage_bake(r->sweep.map, 0, NULL, a->compiler, name, &r->bake, error);
+        gm_stage_bake(r->sweep.map, 0, NULL, &a->bake, name, &r->bake, error);
     if (status != GM_OK)
         return status;
     status = verify(a, r, name, error);
@@ -138,6 +139,8 @@ static int run(const void *given)
     const arguments *a = given;
     gm_error error = {0};
     reduction r;
+    if (!gm_stage_knows_interpolation(a->bake.interpolation))
+        return GM_EXIT_USAGE;
     memset(&r, 0, sizeof r);
     r.output = a->output;
     r.start = gm_stage_clock();

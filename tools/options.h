@@ -63,9 +63,9 @@ typedef enum gm_parse_outcome {
 #define GM_OIL_OPTION(OFFSET, HELP)                                                      \
     {.kind = GM_OPTION_QUANTITY, .name = "oil-temperature", .value = "TEMPERATURE",      \
      .unit = "degC", .low = -50, .high = 200, .offset = OFFSET, .help = HELP}
-#define GM_COMPILER_OPTION(T)                                                            \
+#define GM_COMPILER_OPTION(place)                                                        \
     {.kind = GM_OPTION_TEXT, .name = "compiler", .value = "COMMAND",                     \
-     .offset = offsetof(T, compiler),                                                    \
+     .offset = (place),                                                                  \
      .help = "C compiler, with arguments after spaces: 'gcc -m64'; default: $CC, else "  \
              "cc, gcc or clang"}
 #define GM_POINTS_OPTION(T)                                                              \

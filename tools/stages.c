@@ -91,9 +91,18 @@ void gm_stage_sweep_clear(gm_sweep_stage *stage)
     memset(stage, 0, sizeof *stage);
 }
 
+bool gm_stage_knows_interpolation(const char *name)
+{
+    if (strcmp(name, "linear") == 0 || strcmp(name, "monotone") == 0)
+        return true;
+    fprintf(stderr, "gearmap: there is no interpolation '%s' (only linear, monotone)\n",
+            name);
+    return false;
+}
+
 gm_status gm_stage_bake(const gm_map *map, int n_errors, const gm_map_error *errors,
-                        const char *compiler, const char *path, gm_bake_stage *stage,
-                        gm_error *error)
+                        const gm_bake_settings *settings, const char *path,
+                        gm_bake_stage *stage, gm_error *error)
 {
     char share[GM_PATH_SIZE];
     double start = gm_stage_clock();
@@ -101,8 +110,14 @@ gm_status gm_stage_bake(const gm_map *map, int n_errors, const gm_map_error *err
     gm_status status = gm_file_find_share(share, error);
     if (status != GM_OK)
         return status;
-    const gm_bake_options options = {
-        .share = share, .compiler = compiler, .n_errors = n_errors, .errors = errors};
+    const gm_bake_options options = {.share = share,
+                                     .compiler = settings->compiler,
+                                     .interpolation =
+                                         strcmp(settings->interpolation, "monotone") == 0
+                                             ? GM_INTERPOLATION_MONOTONE
+                                             : GM_INTERPOLATION_LINEAR,
+                                     .n_errors = n_errors,
+                                     .errors = errors};
     gm_progress progress;
     gm_progress_begin(&progress);
     status = gm_bake_fmu2(map, &options, path, &stage->summary, error);

@@ -44,12 +44,21 @@ GM_NODISCARD gm_status gm_stage_sweep(const gm_gearset_file *file,
                                       gm_sweep_stage *stage, gm_error *error);
 void gm_stage_sweep_clear(gm_sweep_stage *stage);
 
-/** Bake map into path; compiler NULL: the one that is found. errors: for the
- *  documentation, n_errors may be 0. */
+/** How to bake, as given. */
+typedef struct gm_bake_settings {
+    const char *compiler;      /* NULL: the one that is found */
+    const char *interpolation; /* its name */
+} gm_bake_settings;
+
+/** True when there is an interpolation of this name; else a sentence on the standard
+ *  error. */
+bool gm_stage_knows_interpolation(const char *name);
+
+/** Bake map into path. errors: for the documentation, n_errors may be 0. */
 GM_NODISCARD gm_status gm_stage_bake(const gm_map *map, int n_errors,
-                                     const gm_map_error *errors, const char *compiler,
-                                     const char *path, gm_bake_stage *stage,
-                                     gm_error *error);
+                                     const gm_map_error *errors,
+                                     const gm_bake_settings *settings, const char *path,
+                                     gm_bake_stage *stage, gm_error *error);
 
 /** Compare the FMU with the plant. */
 GM_NODISCARD gm_status gm_stage_verify(const gm_plant *plant, gm_fmu *fmu, int points,
@@ -77,6 +86,19 @@ void gm_verify_stage_print_groups(const gm_verify_stage *stage, FILE *out);
 
 /** Seconds of a steady clock. */
 double gm_stage_clock(void);
+
+/* The options of a bake, for the tables of the commands that have a field
+ * `gm_bake_settings bake` in their arguments. */
+#define GM_BAKE_OPTION(type, field)                                                      \
+    (offsetof(type, bake) + offsetof(gm_bake_settings, field))
+// clang-format off
+#define GM_BAKE_OPTIONS(type)                                                            \
+    {.kind = GM_OPTION_TEXT, .name = "interpolation", .value = "NAME",                   \
+     .fallback = "linear", .offset = GM_BAKE_OPTION(type, interpolation),                \
+     .help = "between the nodes of the tables: linear, or monotone for cubics with "     \
+             "continuous gradient"},                                                     \
+    GM_COMPILER_OPTION(GM_BAKE_OPTION(type, compiler))
+// clang-format on
 
 /* The options of a sweep, for the tables of the commands that have a field
  * `gm_sweep_settings sweep` in their arguments. */

@@ -90,8 +90,9 @@ static void gear_table(gm_buffer *page, const gm_map *map)
     gm_buffer_text(page, "; both in neutral.</p>\n");
 }
 
-static void range(gm_buffer *page, const gm_map *map)
+static void range(gm_buffer *page, const gm_document *d)
 {
+    const gm_map *map = d->map;
     gm_page_heading(page, "Validity");
     gm_page_number(page, "<p>The tables hold for input speeds up to ",
                    map->speed_max * RPM, 5, " rpm");
@@ -100,6 +101,11 @@ static void range(gm_buffer *page, const gm_map *map)
                    " N·m driving and driven, ");
     gm_page_number(page, "and an oil temperature of ", map->oil_temperature - KELVIN, 4,
                    " °C. ");
+    gm_buffer_text(page, "Between their nodes they are read %s. ",
+                   d->monotone ? "by monotone cubics, whose gradients are continuous and "
+                                 "which never overshoot their nodes (where both paths "
+                                 "carry load: linearly)"
+                               : "linearly");
     gm_buffer_text(page,
                    "Outside, the value at the edge is used, <code>out_of_map</code> "
                    "is true and a warning is given once. A number that is not finite "
@@ -232,6 +238,7 @@ static void origin(gm_buffer *page, const gm_document *d)
     origin_row(page, "map made by", d->map->tool_version);
     origin_row(page, "SHA-256 of the description", d->map->input_sha256);
     origin_row(page, "options of the sweep", d->map->options);
+    origin_row(page, "interpolation", d->monotone ? "monotone" : "linear");
     origin_row(page, "SHA-256 of the map's content", d->map->content_hash);
     origin_row(page, "GUID, from the interface and the tables", d->guid);
     gm_page_table_end(page);
@@ -253,7 +260,7 @@ void gm_documentation_write(const gm_document *d, gm_buffer *page)
     introduction(page, d->map);
     usage(page);
     gear_table(page, d->map);
-    range(page, d->map);
+    range(page, d);
     accuracies(page, d);
     variables_of(page, d->map, CAUSALITY_INPUT, "Inputs");
     variables_of(page, d->map, CAUSALITY_OUTPUT, "Outputs");

@@ -13,6 +13,7 @@
 typedef struct gm_document {
     const gm_map *map;
     const char *guid;
+    int monotone; /* interpolation */
     int n_errors; /* 0: not measured */
     const gm_map_error *errors;
 } gm_document;

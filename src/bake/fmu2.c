@@ -168,6 +168,8 @@ static gm_status add_documentation(job *j)
 {
     const gm_document document = {.map = j->map,
                                   .guid = j->guid,
+                                  .monotone = j->options->interpolation ==
+                                              GM_INTERPOLATION_MONOTONE,
                                   .n_errors = j->options->n_errors,
                                   .errors = j->options->errors};
     gm_buffer page = {0};
@@ -336,7 +338,8 @@ static gm_status put_in_place(const job *j, const char *part)
 static void summarise(const job *j, gm_bake_summary *summary)
 {
     struct stat info;
-    *summary = (gm_bake_summary){.library_size = j->library_size};
+    *summary = (gm_bake_summary){.library_size = j->library_size,
+                                 .interpolation = j->options->interpolation};
     if (stat(j->target, &info) == 0)
         summary->file_size = (long)info.st_size;
     snprintf(summary->compiler, sizeof summary->compiler, "%.255s", j->compiler.path);
@@ -357,6 +360,8 @@ gm_status gm_bake_fmu2(const gm_map *map, const gm_bake_options *options,
     if (status == GM_OK)
         status = gm_map_view_create(map, &view, error);
     if (status == GM_OK) {
+        if (options->interpolation == GM_INTERPOLATION_MONOTONE)
+            gm_map_view_make_monotone(view);
         j.reduced = gm_map_view_reduced(view);
         status = build_package(&j);
     }
@@ -375,8 +380,12 @@ gm_status gm_bake_document(const char *path, const gm_map *map,
                            const gm_bake_summary *summary, int n_errors,
                            const gm_map_error *errors, gm_error *error)
 {
-    const gm_document document = {
-        .map = map, .guid = summary->guid, .n_errors = n_errors, .errors = errors};
+    const gm_document document = {.map = map,
+                                  .guid = summary->guid,
+                                  .monotone =
+                                      summary->interpolation == GM_INTERPOLATION_MONOTONE,
+                                  .n_errors = n_errors,
+                                  .errors = errors};
     gm_buffer page = {0};
     gm_documentation_write(&document, &page);
     return gm_package_replace(path, DOCUMENTATION, &page, error);

@@ -12,10 +12,17 @@
 extern "C" {
 #endif
 
+/** Between the nodes of the tables; names "linear" and "monotone". */
+typedef enum gm_interpolation {
+    GM_INTERPOLATION_LINEAR,
+    GM_INTERPOLATION_MONOTONE /* cubics with continuous gradient; X stays linear */
+} gm_interpolation;
+
 typedef struct gm_bake_options {
     const char *share;    /* folder with core/, fmu/ and fmi2/ sources to ship */
     const char *compiler; /* C compiler; NULL: $CC, then cc, gcc, clang from the path */
-    int n_errors;         /* measured errors for the documentation; 0: none */
+    gm_interpolation interpolation;
+    int n_errors;               /* measured errors for the documentation; 0: none */
     const gm_map_error *errors; /* [n_errors] */
 } gm_bake_options;
 
@@ -24,6 +31,7 @@ typedef struct gm_bake_summary {
     long file_size;    /* bytes */
     long library_size; /* bytes */
     char guid[64];
+    gm_interpolation interpolation;
 } gm_bake_summary;
 
 /** Write an FMI 2.0 FMU (sources and a linux64 binary). Written beside its final name and

@@ -170,7 +170,8 @@ static void struct1(const writer *w, const gm_table1 *t)
     }
     gm_buffer_text(w->text, "{");
     write_axis(w, 'x', &t->x);
-    gm_buffer_text(w->text, ".value = %s}", array_name(w, t->value, t->x.n));
+    gm_buffer_text(w->text, ".value = %s%s}", array_name(w, t->value, t->x.n),
+                   t->monotone ? ", .monotone = 1" : "");
 }
 
 static void struct2(const writer *w, const gm_table2 *t)
@@ -182,7 +183,8 @@ static void struct2(const writer *w, const gm_table2 *t)
     gm_buffer_text(w->text, "{");
     write_axis(w, 'x', &t->x);
     write_axis(w, 'y', &t->y);
-    gm_buffer_text(w->text, ".value = %s}", array_name(w, t->value, t->x.n * t->y.n));
+    gm_buffer_text(w->text, ".value = %s%s}", array_name(w, t->value, t->x.n * t->y.n),
+                   t->monotone ? ", .monotone = 1" : "");
 }
 
 static void struct3(const writer *w, const gm_table3 *t)

@@ -14,6 +14,27 @@
  * knows the number of nodes, answers. */
 #define GM_UNBOUNDED 1e30
 
+/* Where a query lies on one axis. */
+typedef struct gm_place {
+    int i;       /* cell */
+    int far;     /* 1: at the last node or clamped to it */
+    int outside; /* 1: clamped */
+    gm_real q;   /* the query, clamped */
+    gm_real low, high;
+    gm_real slope; /* 1 / width; 0 on a one-node axis */
+} gm_place;
+
+gm_place gm_place_on(const gm_axis *axis, gm_real q);
+
+/* Monotone tables, also when the cell is the last one's: interp_monotone.c. */
+gm_value1 gm_monotone1(const gm_table1 *t, int table, gm_cell1 *cell, gm_real x);
+gm_value2 gm_monotone2(const gm_table2 *t, int table, gm_cell2 *cell, gm_real x,
+                       gm_real y);
+
+/* What the tangent plane at (x, y) leaves out at (x_to, y_to), in the cell of both. */
+gm_real gm_monotone2_rest(const gm_cell2 *cell, gm_real x, gm_real y, gm_real x_to,
+                          gm_real y_to);
+
 gm_value1 gm_cell1_refill(const gm_table1 *t, int table, gm_cell1 *cell, gm_real x);
 gm_value2 gm_cell2_refill(const gm_table2 *t, int table, gm_cell2 *cell, gm_real x,
                           gm_real y);

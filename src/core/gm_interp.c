@@ -12,16 +12,6 @@
 
 #include <stddef.h>
 
-/* Where a query lies on one axis. */
-typedef struct place {
-    int i;       /* cell */
-    int far;     /* 1: at the last node or clamped to it */
-    int outside; /* 1: clamped */
-    gm_real q;   /* the query, clamped */
-    gm_real low, high;
-    gm_real slope; /* 1 / width; 0 on a one-node axis */
-} place;
-
 int gm_axis_find(const gm_axis *axis, gm_real q)
 {
     int low = 0, high = axis->n - 1;
@@ -36,9 +26,9 @@ int gm_axis_find(const gm_axis *axis, gm_real q)
     return low;
 }
 
-static place place_on(const gm_axis *axis, gm_real q)
+gm_place gm_place_on(const gm_axis *axis, gm_real q)
 {
-    place p = {0, 0, 0, q, -GM_UNBOUNDED, GM_UNBOUNDED, 0};
+    gm_place p = {0, 0, 0, q, -GM_UNBOUNDED, GM_UNBOUNDED, 0};
     if (axis->n == 1) {
         p.q = p.low; /* any point: the slope is zero */
         return p;
@@ -60,7 +50,10 @@ static place place_on(const gm_axis *axis, gm_real q)
 
 gm_value1 gm_cell1_refill(const gm_table1 *t, int table, gm_cell1 *c, gm_real x)
 {
-    const place p = place_on(&t->x, x);
+    if (t->monotone) {
+        return gm_monotone1(t, table, c, x);
+    }
+    const gm_place p = gm_place_on(&t->x, x);
     const gm_real *f = t->value + p.i;
     const int step = t->x.n > 1;
     c->table = table;
@@ -81,7 +74,7 @@ gm_value1 gm_cell1_refill(const gm_table1 *t, int table, gm_cell1 *c, gm_real x)
 
 /* Value on the edge of a cell where x, y or both are at the last node; f[near/far x][y].
  */
-static gm_real far_edge(const gm_cell2 *c, const place *x, const place *y,
+static gm_real far_edge(const gm_cell2 *c, const gm_place *x, const gm_place *y,
                         const gm_real f[2][2])
 {
     if (x->far && y->far) {
@@ -96,7 +89,10 @@ static gm_real far_edge(const gm_cell2 *c, const place *x, const place *y,
 gm_value2 gm_cell2_refill(const gm_table2 *t, int table, gm_cell2 *c, gm_real x,
                           gm_real y)
 {
-    const place px = place_on(&t->x, x), py = place_on(&t->y, y);
+    if (t->monotone) {
+        return gm_monotone2(t, table, c, x, y);
+    }
+    const gm_place px = gm_place_on(&t->x, x), py = gm_place_on(&t->y, y);
     const ptrdiff_t row = t->y.n, next = t->x.n > 1 ? row : 0, step = row > 1;
     const gm_real *corner = t->value + px.i * row + py.i;
     const gm_real f[2][2] = {{corner[0], corner[step]},
@@ -132,14 +128,14 @@ gm_value2 gm_table2_at(const gm_table2 *t, int table, gm_cell2 *cell, gm_real x,
 }
 
 /* Between two values, exact at both ends; *slope receives the derivative. */
-static gm_real between(const place *p, gm_real near, gm_real far, gm_real *slope)
+static gm_real between(const gm_place *p, gm_real near, gm_real far, gm_real *slope)
 {
     *slope = (far - near) * p->slope;
     return p->far ? far : near + *slope * (p->q - p->low);
 }
 
 /* One layer z: the bilinear surface of x and y, d[] its derivatives. */
-static gm_real layer(const place *x, const place *y, const gm_real *corner,
+static gm_real layer(const gm_place *x, const gm_place *y, const gm_real *corner,
                      ptrdiff_t next_x, ptrdiff_t next_y, gm_real d[2])
 {
     gm_real y_near, y_far, unused;
@@ -152,8 +148,8 @@ static gm_real layer(const place *x, const place *y, const gm_real *corner,
 
 /* Value and gradient by nested interpolation: for far corners, where the value must be
  * the node's own. */
-static gm_value3 at_far_corner(const place p[3], const gm_real *corner, ptrdiff_t next_x,
-                               ptrdiff_t next_y, ptrdiff_t next_z)
+static gm_value3 at_far_corner(const gm_place p[3], const gm_real *corner,
+                               ptrdiff_t next_x, ptrdiff_t next_y, ptrdiff_t next_z)
 {
     gm_real near[2], far[2], unused;
     const gm_real low = layer(&p[0], &p[1], corner, next_x, next_y, near);
@@ -167,7 +163,7 @@ static gm_value3 at_far_corner(const place p[3], const gm_real *corner, ptrdiff_
 }
 
 /* Corner values to coefficients: differences along one axis after the other. */
-static void fill_cell3(const place p[3], const gm_real *f, ptrdiff_t next_x,
+static void fill_cell3(const gm_place p[3], const gm_real *f, ptrdiff_t next_x,
                        ptrdiff_t next_y, ptrdiff_t next_z, gm_cell3 *c)
 {
     for (int i = 0; i < 8; i++) {
@@ -191,7 +187,8 @@ static void fill_cell3(const place p[3], const gm_real *f, ptrdiff_t next_x,
 gm_value3 gm_cell3_refill(const gm_table3 *t, int table, gm_cell3 *c, gm_real x,
                           gm_real y, gm_real z)
 {
-    const place p[3] = {place_on(&t->x, x), place_on(&t->y, y), place_on(&t->z, z)};
+    const gm_place p[3] = {gm_place_on(&t->x, x), gm_place_on(&t->y, y),
+                           gm_place_on(&t->z, z)};
     const ptrdiff_t n_y = t->y.n, n_z = t->z.n;
     const gm_real *corner = t->value + (p[0].i * n_y + p[1].i) * n_z + p[2].i;
     const ptrdiff_t next_x = t->x.n > 1 ? n_y * n_z : 0, next_y = n_y > 1 ? n_z : 0;

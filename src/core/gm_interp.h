@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * Linear interpolation in one, two and three dimensions over strictly increasing axes.
+ * Interpolation in one, two and three dimensions over strictly increasing axes: linear,
+ * in one and two dimensions also by monotone cubics with continuous gradient
+ * (interp_monotone.c).
  *
  * A query remembers its cell: while the operating point stays inside, neither a search
  * nor a read of the table is needed, only the cell's multilinear coefficients. Value and
@@ -29,11 +31,13 @@ typedef struct gm_axis {
 typedef struct gm_table1 {
     gm_axis x;
     const gm_real *value; /* [n_x] */
+    int monotone;         /* 0: linear, 1: monotone cubic */
 } gm_table1;
 
 typedef struct gm_table2 {
     gm_axis x, y;
     const gm_real *value; /* [n_x][n_y], row-major */
+    int monotone;         /* 0: bilinear, 1: monotone bicubic */
 } gm_table2;
 
 typedef struct gm_table3 {
@@ -43,18 +47,21 @@ typedef struct gm_table3 {
 
 /* Cells hold no pointer: a saved state stays valid in another process. A cell is filled
  * for one table; .table is a small number that the caller gives each table, and a cell of
- * another table is refilled. Zero-initialised cells are empty (table 0 is "none"). */
+ * another table is refilled. Zero-initialised cells are empty (table 0 is "none"). A cell
+ * of a monotone table has the negative number. */
 typedef struct gm_cell1 {
     int table;
     gm_real x_low, x_high; /* the cell's bounds */
-    gm_real c0, cx;        /* value = c0 + cx (x - x_low) */
+    gm_real c0, cx;        /* value = c0 + cx (x - x_low). Monotone: c0 is the largest
+                              |curvature| of the cell, 0 outside of the table */
 } gm_cell1;
 
 typedef struct gm_cell2 {
     int table;
     gm_real x_low, x_high, y_low, y_high;
     gm_real c0, cx, cy,
-        cxy; /* c0 + cx u + cy v + cxy u v, u = x - x_low, v = y - y_low */
+        cxy;          /* c0 + cx u + cy v + cxy u v, u = x - x_low, v = y - y_low */
+    gm_real more[12]; /* monotone: factors of v2 v3, u v2, u v3, u2 1 v v2 v3, u3 ... */
 } gm_cell2;
 
 typedef struct gm_cell3 {

@@ -11,8 +11,9 @@
  * patch holds the coefficients of both sums over the common cell of all the tables, so
  * that idling gears cost nothing while the point stays there; one line may be on its
  * ramp, as a shaft that nothing drives settles next to a line. With more of them, at the
- * edges of the tables and near w_o = 0 the lines are summed one by one. Which way is
- * taken depends on the point only, never on what the cache holds.
+ * edges of the tables and near w_o = 0 the lines are summed one by one, and always over
+ * monotone tables, whose sums are not bilinear. Which way is taken depends on the map and
+ * the point only, never on what the cache holds.
  */
 #include "cell.h"
 #include "reduced_parts.h"
@@ -145,7 +146,8 @@ static void add_line_to_patch(const gm_cell1 *jump, gm_real r, const place *q,
     c->reaction.cy -= r * (side + rest) * half_y;
 }
 
-/* The patch around q in *c; 0 when there is none: on a ramp, at or beyond an edge. */
+/* The patch around q in *c; 0 when there is none: on a ramp, at or beyond an edge,
+ * over monotone tables. */
 static int fill_patch(const gm_drive *d, int p, const place *q, gm_drag_patch *c)
 {
     const gm_path *path = &d->map->path[p];
@@ -154,7 +156,7 @@ static int fill_patch(const gm_drive *d, int p, const place *q, gm_drag_patch *c
     gm_cell2 *n = &d->cache->drag[p], *r = &d->cache->reaction[p];
     gm_cell1 jump;
     made.x_high = made.y_high = GM_UNBOUNDED;
-    if (!sort_lines(path, q, &made)) {
+    if (path->drag[q->i][q->j].monotone || !sort_lines(path, q, &made)) {
         return 0;
     }
     gm_cell2_at(&path->drag[q->i][q->j], quadrant(q), n, q->x, q->y);
@@ -300,24 +302,20 @@ static int same_side_of_rest(gm_real sign, gm_real m, gm_real to)
     return (sign * m < 0) == (sign * to < 0);
 }
 
-static int small(gm_real rest, gm_real value)
-{
-    return gm_abs(rest) <= GM_REMAINDER * gm_abs(value) + GM_REMAINDER_NM;
-}
-
 static int patch_holds(const gm_drag_patch *c, const place *q, const place *to,
                        const gm_path_terms *t)
 {
     const gm_real du = to->x - q->x, dv = to->y - q->y;
     const gm_real d_slip = to->w - q->w - c->ratio_ramp * (to->w_o - q->w_o);
     const gm_real ramp_rest = c->any_ramp ? c->half_y * dv * d_slip / GM_LINE_WIDTH : 0;
-    return in_patch(c, to) && small(c->drag.cxy * du * dv, t->drag) &&
-           small(c->reaction.cxy * du * dv, t->reaction) && small(ramp_rest, t->drag);
+    return in_patch(c, to) && gm_is_small(c->drag.cxy * du * dv, t->drag) &&
+           gm_is_small(c->reaction.cxy * du * dv, t->reaction) &&
+           gm_is_small(ramp_rest, t->drag);
 }
 
 /* Whether every line's ramps and jump table are read in the same place. Of more than
  * eight lines the ramps of the last eight are compared. */
-static int lines_hold(const gm_drive *d, int p, unsigned ramps, const place *q,
+static int lines_hold(const gm_drive *d, int p, const gm_path_terms *t, const place *q,
                       const place *to)
 {
     const gm_path *path = &d->map->path[p];
@@ -326,11 +324,11 @@ static int lines_hold(const gm_drive *d, int p, unsigned ramps, const place *q,
         const gm_real r = path->lines[i].ratio;
         const gm_cell1 *c = &d->cache->line[p][i < GM_CACHED_LINES ? i : 0];
         now = 16 * now + 4 * side_of(to->w - r * to->w_o) + side_of(r * to->w_o);
-        if (!gm_stays(c->x_low, c->x_high, q->y, to->y)) {
+        if (!gm_cell1_holds(c, q->y, to->y, t->drag)) {
             return 0;
         }
     }
-    return now == ramps;
+    return now == t->ramps;
 }
 
 int gm_drag_holds(const gm_drive *d, const gm_solution *s, int p, const gm_point *from,
@@ -348,5 +346,5 @@ int gm_drag_holds(const gm_drive *d, const gm_solution *s, int p, const gm_point
     }
     return gm_cell2_holds(&d->cache->drag[p], q.x, q.y, to.x, to.y, t->drag) &&
            gm_cell2_holds(&d->cache->reaction[p], q.x, q.y, to.x, to.y, t->reaction) &&
-           lines_hold(d, p, t->ramps, &q, &to);
+           lines_hold(d, p, t, &q, &to);
 }

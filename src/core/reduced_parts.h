@@ -9,6 +9,7 @@
 #ifndef REDUCED_PARTS_H
 #define REDUCED_PARTS_H
 
+#include "cell.h"
 #include "gm_reduced_modes.h"
 
 /* Sub-steps that a vibration may ask for in one step. */
@@ -165,15 +166,37 @@ static inline int gm_stays(gm_real low, gm_real high, gm_real from, gm_real to)
     return from >= high ? to >= high : to >= low && to < high;
 }
 
-/** The same for a cell in two directions, with a small remainder; value: what the pass
- *  made of this table. */
+/** Whether a remainder may be left out beside a value. */
+static inline int gm_is_small(gm_real rest, gm_real value)
+{
+    return gm_abs(rest) <= GM_REMAINDER * gm_abs(value) + GM_REMAINDER_NM;
+}
+
+/* The same of a monotone cell, which is curved everywhere: so small that one more pass,
+ * from the solution of the last, brings it about. */
+#define GM_CURVED_REMAINDER 1e-8
+
+/** gm_stays for a cell; in a monotone one the tangent must be near enough too. value:
+ *  what the pass made of this table. */
+static inline int gm_cell1_holds(const gm_cell1 *c, gm_real x, gm_real x_to,
+                                 gm_real value)
+{
+    return gm_stays(c->x_low, c->x_high, x, x_to) &&
+           (c->table >= 0 || c->c0 / 2 * (x_to - x) * (x_to - x) <=
+                                 GM_CURVED_REMAINDER * gm_abs(value) + GM_REMAINDER_NM);
+}
+
+/** The same for a cell in two directions, with a small remainder. */
 static inline int gm_cell2_holds(const gm_cell2 *c, gm_real x, gm_real y, gm_real x_to,
                                  gm_real y_to, gm_real value)
 {
-    return gm_stays(c->x_low, c->x_high, x, x_to) &&
-           gm_stays(c->y_low, c->y_high, y, y_to) &&
-           gm_abs(c->cxy * (x_to - x) * (y_to - y)) <=
-               GM_REMAINDER * gm_abs(value) + GM_REMAINDER_NM;
+    if (!gm_stays(c->x_low, c->x_high, x, x_to) ||
+        !gm_stays(c->y_low, c->y_high, y, y_to)) {
+        return 0;
+    }
+    return c->table < 0 ? gm_abs(gm_monotone2_rest(c, x, y, x_to, y_to)) <=
+                              GM_CURVED_REMAINDER * gm_abs(value) + GM_REMAINDER_NM
+                        : gm_is_small(c->cxy * (x_to - x) * (y_to - y), value);
 }
 
 /** Gear engaged or being synchronised on path p; NULL in neutral. */

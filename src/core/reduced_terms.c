@@ -209,7 +209,8 @@ static int output_holds(const gm_drive *d, const gm_solution *s, const gm_point 
 {
     const gm_real sign_o = s->sign[GM_OUT];
     const gm_cell1 *c = &d->cache->parasitic[gm_direction(sign_o)];
-    if (!gm_stays(c->x_low, c->x_high, sign_o * at->m[GM_OUT], sign_o * to->m[GM_OUT]) ||
+    if (!gm_cell1_holds(c, sign_o * at->m[GM_OUT], sign_o * to->m[GM_OUT],
+                        s->terms.out) ||
         !both_loaded_holds(d, s, at, to)) {
         return 0;
     }
@@ -238,27 +239,28 @@ static int coupling_holds(const gm_drive *d, gm_solution *s, const gm_point *at,
         s->lead = lead;
         return 0;
     }
-    return gm_stays(c->x_low, c->x_high, slip + s->lead * gm_parting(d, at),
-                    slip + s->lead * gm_parting(d, to));
+    return gm_cell1_holds(c, slip + s->lead * gm_parting(d, at),
+                          slip + s->lead * gm_parting(d, to), s->terms.coupling);
 }
 
 /* Speeds beyond rest are not told apart from those below the first node. */
 static int pin_holds(const gm_drive *d, gm_real sign, int p, const gm_point *at,
-                     const gm_point *to)
+                     const gm_point *to, gm_real value)
 {
     const int dir = gm_direction(sign);
     const gm_cell1 *c = &d->cache->pin[p][dir];
     const gm_real r = sign * d->ratio[p];
     return d->gear[p]->pin[dir].value == NULL ||
-           gm_stays(c->x_low, c->x_high, r * at->m[GM_OUT], r * to->m[GM_OUT]);
+           gm_cell1_holds(c, r * at->m[GM_OUT], r * to->m[GM_OUT], value);
 }
 
 static int pins_hold(const gm_drive *d, const gm_solution *s, int p, const gm_point *at,
                      const gm_point *to)
 {
     const gm_real sigma = d->ratio[p] < 0 ? -s->sign[GM_OUT] : s->sign[GM_OUT];
-    return pin_holds(d, s->sign[p], p, at, to) &&
-           (sigma * s->sign[p] > 0 || s->held[GM_OUT] || pin_holds(d, sigma, p, at, to));
+    return pin_holds(d, s->sign[p], p, at, to, s->terms.path[p].pin) &&
+           (sigma * s->sign[p] > 0 || s->held[GM_OUT] ||
+            pin_holds(d, sigma, p, at, to, s->terms.path[p].pin));
 }
 
 int gm_terms_hold(const gm_drive *d, gm_solution *s, const gm_point *at,

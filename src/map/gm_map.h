@@ -140,6 +140,9 @@ GM_NODISCARD gm_status gm_map_hash(const gm_map *map, char text[65], gm_error *e
 typedef struct gm_map_view gm_map_view;
 GM_NODISCARD gm_status gm_map_view_create(const gm_map *map, gm_map_view **view,
                                           gm_error *error);
+/** Read the tables of one and two axes by monotone cubics instead of linearly; X, of
+ *  three axes, stays linear. */
+void gm_map_view_make_monotone(gm_map_view *view);
 void gm_map_view_destroy(gm_map_view *view);
 const gm_reduced_map *gm_map_view_reduced(const gm_map_view *view);
 

@@ -29,7 +29,7 @@ typedef struct builder {
 
 /* A table that is zero everywhere: one node, so there is no range to leave. */
 static const gm_real zero_node[1] = {0.0};
-static const gm_table1 zero_table = {{1, zero_node}, zero_node};
+static const gm_table1 zero_table = {{1, zero_node}, zero_node, 0};
 
 static gm_axis axis_of(const gm_map_table *table, int a)
 {
@@ -38,12 +38,12 @@ static gm_axis axis_of(const gm_map_table *table, int a)
 
 static gm_table1 table1_of(const gm_map_table *t)
 {
-    return (gm_table1){axis_of(t, 0), t->value};
+    return (gm_table1){axis_of(t, 0), t->value, 0};
 }
 
 static gm_table2 table2_of(const gm_map_table *t)
 {
-    return (gm_table2){axis_of(t, 0), axis_of(t, 1), t->value};
+    return (gm_table2){axis_of(t, 0), axis_of(t, 1), t->value, 0};
 }
 
 static gm_table3 table3_of(const gm_map_table *t)
@@ -164,7 +164,7 @@ static gm_status build_pins(const builder *b, int p)
     for (int g = 0; g < path->n_gears; g++)
         for (int d = 0; d < 2; d++) {
             const gm_axis *x = &path->drag[d][d].x;
-            gears[g].pin[d] = (gm_table1){*x, value};
+            gears[g].pin[d] = (gm_table1){*x, value, 0};
             for (int i = 0; i < x->n; i++)
                 *value++ = fmax(0.0, drag_in_gear(path, &gears[g], d, x->x[i]));
         }
@@ -343,6 +343,30 @@ gm_status gm_map_view_create(const gm_map *map, gm_map_view **view, gm_error *er
     else
         gm_map_view_destroy(made);
     return status;
+}
+
+static void make_path_monotone(gm_map_view *view, int p)
+{
+    gm_path *path = &view->reduced.path[p];
+    for (int d = 0; d < 2; d++) {
+        for (int g = 0; g < path->n_gears; g++)
+            view->gears[p][g].load_loss[d].monotone = view->gears[p][g].pin[d].monotone =
+                1;
+        for (int l = 0; l < path->n_lines; l++)
+            view->lines[p][l].jump[d].monotone = 1;
+        for (int o = 0; o < 2; o++)
+            path->drag[d][o].monotone = path->reaction[d][o].monotone = 1;
+    }
+}
+
+void gm_map_view_make_monotone(gm_map_view *view)
+{
+    for (int p = 0; p < view->reduced.n_paths; p++)
+        make_path_monotone(view, p);
+    for (int i = 0; i < view->reduced.n_configurations; i++)
+        for (int d = 0; d < 2; d++)
+            view->configurations[i].parasitic[d].monotone = 1;
+    view->reduced.coupling.monotone = 1;
 }
 
 void gm_map_view_destroy(gm_map_view *view)

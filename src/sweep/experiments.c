@@ -242,7 +242,7 @@ static double load_loss(const row *r, int p, double w_o, double torque)
     int backward = ratio * sign_of(r->table->key.direction[0]) < 0;
     gm_table_key key = gm_sweep_load_key(p, r->table->key.gear[p], backward);
     const gm_map_table *d = gm_map_find(map, &key);
-    gm_table2 view = {{d->n[0], d->x[0]}, {d->n[1], d->x[1]}, d->value};
+    gm_table2 view = {{d->n[0], d->x[0]}, {d->n[1], d->x[1]}, d->value, 0};
     gm_cell2 cell = {0};
     return fabs(ratio) * gm_table2_at(&view, 1, &cell, fabs(ratio) * w_o, torque).value;
 }

@@ -5,7 +5,7 @@ import re
 import zipfile
 
 import pytest
-from conftest import COARSE, EXAMPLE, result_of, succeeds
+from conftest import COARSE, EXAMPLE, fails, result_of, succeeds
 
 
 @pytest.fixture(scope="module")
@@ -42,3 +42,28 @@ def test_baking_the_map_again_gives_the_same_bytes(reduced, tmp_path):
 
 def test_a_map_without_measured_errors(example_fmu):
     assert "Not measured" in page_of(example_fmu)
+
+
+def test_the_interpolation_is_told(example_map, example_fmu, tmp_path):
+    fmu = tmp_path / "monotone.fmu"
+    succeeds("bake", example_map, "-o", fmu, "--interpolation", "monotone")
+    assert "<td>interpolation</td><td><code>monotone</code>" in page_of(fmu)
+    assert "monotone cubics" in page_of(fmu)
+    assert "<td>interpolation</td><td><code>linear</code>" in page_of(example_fmu)
+
+
+def test_monotone_tables_are_nearer_to_the_model(tmp_path):
+    """Of the losses of one path, on the axes that the sweep chooses; RMS."""
+    rms = {}
+    for kind in ("linear", "monotone"):
+        fmu = tmp_path / f"{kind}.fmu"
+        result = result_of("reduce", EXAMPLE, "-o", fmu, "--interpolation", kind)
+        rms[kind] = result["verify"]["rms_relative"]
+    assert rms["monotone"] < 0.5 * rms["linear"]
+
+
+def test_an_unknown_interpolation(example_map, tmp_path):
+    for command in (("bake", example_map), ("reduce", EXAMPLE)):
+        words = fails(*command, "-o", tmp_path / "no.fmu", "--interpolation", "cubic", code=2)
+        assert "no interpolation 'cubic'" in words
+    assert list(tmp_path.iterdir()) == []

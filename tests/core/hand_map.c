@@ -171,7 +171,7 @@ static void fill_configuration(const hand_spec *s, const int gear[2], unsigned *
             }
             m->p[index][dir][i] = p;
         }
-        c->parasitic[dir] = (gm_table1){{HAND_W, m->w_o}, m->p[index][dir]};
+        c->parasitic[dir] = (gm_table1){{HAND_W, m->w_o}, m->p[index][dir], s->monotone};
         c->both_loaded[dir] = (gm_table3){{HAND_X, m->x_w},
                                           {HAND_X, m->x_t},
                                           {HAND_X, m->x_t},
@@ -207,13 +207,13 @@ static void fill_gear(const hand_spec *s, int p, int g, unsigned *seed, hand_map
                 s->pin_part / r *
                 (s->p0[gear->ratio < 0 ? 1 - dir : dir] + s->p1 * m->w_p[i] / r);
         }
-        gear->pin[dir] = (gm_table1){{HAND_W, m->w_p}, m->pin[p][g][dir]};
-        gear->load_loss[dir] =
-            (gm_table2){{HAND_W, m->w_p}, {HAND_T, m->torque}, m->d[p][g][dir][0]};
+        gear->pin[dir] = (gm_table1){{HAND_W, m->w_p}, m->pin[p][g][dir], s->monotone};
+        gear->load_loss[dir] = (gm_table2){
+            {HAND_W, m->w_p}, {HAND_T, m->torque}, m->d[p][g][dir][0], s->monotone};
     }
     m->line[p][g].ratio = gear->ratio;
     m->line[p][g].jump[0] = m->line[p][g].jump[1] =
-        (gm_table1){{HAND_W, m->w_o}, m->jump};
+        (gm_table1){{HAND_W, m->w_o}, m->jump, s->monotone};
 }
 
 static void fill_drag(const hand_spec *s, int p, int dn, int dw, hand_map *m)
@@ -229,9 +229,9 @@ static void fill_drag(const hand_spec *s, int p, int dn, int dw, hand_map *m)
     }
     gm_path *path = &m->map.path[p];
     path->drag[dn][dw] =
-        (gm_table2){{HAND_W, m->w_p}, {HAND_W, m->w_o}, m->n[p][dn][dw][0]};
+        (gm_table2){{HAND_W, m->w_p}, {HAND_W, m->w_o}, m->n[p][dn][dw][0], s->monotone};
     path->reaction[dn][dw] =
-        (gm_table2){{HAND_W, m->w_p}, {HAND_W, m->w_o}, m->r[p][dn][dw][0]};
+        (gm_table2){{HAND_W, m->w_p}, {HAND_W, m->w_o}, m->r[p][dn][dw][0], s->monotone};
 }
 
 static void fill_path(const hand_spec *s, int p, unsigned *seed, hand_map *m)
@@ -287,7 +287,7 @@ void hand_build(const hand_spec *s, hand_map *m)
     m->map.n_configurations = (s->n_gears[0] + 1) * (n_1 + 1);
     m->map.configurations = m->configuration;
     if (s->n_paths == 2) {
-        m->map.coupling = (gm_table1){{HAND_C, m->relative}, m->c};
+        m->map.coupling = (gm_table1){{HAND_C, m->relative}, m->c, s->monotone};
     }
 }
 

@@ -36,6 +36,7 @@ typedef struct hand_spec {
     double speed_max,
         torque_max;     /* of the output, of a path; path speeds go 20 x higher */
     unsigned roughness; /* seed: node values of P and D vary by up to 50 %; 0: no */
+    int monotone;       /* interpolation of all tables but X */
 } hand_spec;
 
 typedef struct hand_map {

@@ -48,8 +48,8 @@ static void fill(tables *t)
             }
         }
     }
-    t->t1 = (gm_table1){{N_X, axis_x}, t->value1};
-    t->t2 = (gm_table2){{N_X, axis_x}, {N_Y, axis_y}, t->value2[0]};
+    t->t1 = (gm_table1){{N_X, axis_x}, t->value1, 0};
+    t->t2 = (gm_table2){{N_X, axis_x}, {N_Y, axis_y}, t->value2[0], 0};
     t->t3 = (gm_table3){{N_X, axis_x}, {N_Y, axis_y}, {N_Z, axis_z}, t->value3[0][0]};
 }
 
@@ -194,9 +194,9 @@ static void a_multilinear_function_is_reproduced(void **state)
 static void an_axis_of_one_node_is_a_constant_without_bounds(void **state)
 {
     const double value[N_Y] = {1, 2, 4, 8}, lone[1] = {3};
-    const gm_table1 t1 = {{1, lone}, value};
-    const gm_table2 flat_x = {{1, lone}, {N_Y, axis_y}, value};
-    const gm_table2 flat_y = {{N_Y, axis_y}, {1, lone}, value};
+    const gm_table1 t1 = {{1, lone}, value, 0};
+    const gm_table2 flat_x = {{1, lone}, {N_Y, axis_y}, value, 0};
+    const gm_table2 flat_y = {{N_Y, axis_y}, {1, lone}, value, 0};
     const gm_table3 flat = {{1, lone}, {N_Y, axis_y}, {1, lone}, value};
     const double far[4] = {-1e200, -7, 3, 1e200};
     (void)state;

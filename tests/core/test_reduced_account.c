@@ -20,7 +20,7 @@ enum { MAPS = 200, STEPS = 400 };
 
 static hand_map m, mirror;
 static gm_reduced_params params;
-static int fidelity;
+static int fidelity, monotone;
 
 static void vary_inputs(int i, unsigned *seed, gm_reduced_inputs *in)
 {
@@ -45,7 +45,8 @@ static double any_step(unsigned *seed)
 
 static void new_map(int k, unsigned *seed)
 {
-    const hand_spec spec = hand_random_spec(seed);
+    hand_spec spec = hand_random_spec(seed);
+    spec.monotone = monotone;
     hand_build(&spec, &m);
     gm_reduced_default_params(&m.map, &params);
     if (k % 4 == 0) {
@@ -127,10 +128,13 @@ static void the_mirrored_gearset_moves_in_mirror_image(void **state)
     (void)state;
     for (int k = 0; k < MAPS / 4; k++) {
         hand_spec spec = hand_random_spec(&seed);
+        spec.monotone = monotone;
         spec.roughness = 0; /* node values drawn at random have no mirror image */
         const hand_spec mirrored = hand_mirrored(&spec);
         hand_build(&spec, &m);
         hand_build(&mirrored, &mirror);
+        /* the axis of C is not symmetric, so its cubic is none either */
+        m.map.coupling.monotone = mirror.map.coupling.monotone = 0;
         gm_reduced_default_params(&m.map, &params);
         params.fidelity = fidelity;
         const double w = hand_between(&seed, -40, 40);
@@ -186,10 +190,11 @@ static void caches_change_no_bit(void **state)
 
 static void a_shaft_at_rest_is_exactly_at_rest(void **state)
 {
-    const hand_spec spec = hand_default();
+    hand_spec spec = hand_default();
     unsigned seed = 3;
     int rests = 0;
     (void)state;
+    spec.monotone = monotone;
     hand_build(&spec, &m);
     gm_reduced_default_params(&m.map, &params);
     params.fidelity = fidelity;
@@ -209,6 +214,7 @@ static int set_rigid(void **state)
 {
     (void)state;
     fidelity = GM_RIGID;
+    monotone = 0;
     return 0;
 }
 
@@ -216,6 +222,20 @@ static int set_lash(void **state)
 {
     (void)state;
     fidelity = GM_LASH;
+    return 0;
+}
+
+static int set_rigid_monotone(void **state)
+{
+    (void)set_rigid(state);
+    monotone = 1;
+    return 0;
+}
+
+static int set_lash_monotone(void **state)
+{
+    (void)set_lash(state);
+    monotone = 1;
     return 0;
 }
 
@@ -229,5 +249,8 @@ int main(void)
         cmocka_unit_test(a_shaft_at_rest_is_exactly_at_rest),
     };
     return cmocka_run_group_tests_name("rigid", tests, set_rigid, NULL) +
-           cmocka_run_group_tests_name("lash", tests, set_lash, NULL);
+           cmocka_run_group_tests_name("lash", tests, set_lash, NULL) +
+           cmocka_run_group_tests_name("rigid, monotone", tests, set_rigid_monotone,
+                                       NULL) +
+           cmocka_run_group_tests_name("lash, monotone", tests, set_lash_monotone, NULL);
 }

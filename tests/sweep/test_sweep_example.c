@@ -80,7 +80,7 @@ static double coupling_at(double relative_speed)
 {
     gm_table_key key = gm_table_key_of(GM_COUPLING);
     const gm_map_table *c = gm_map_find(map, &key);
-    gm_table1 table = {{c->n[0], c->x[0]}, c->value};
+    gm_table1 table = {{c->n[0], c->x[0]}, c->value, 0};
     gm_cell1 cell = {0};
     return gm_table1_at(&table, 1, &cell, relative_speed).value;
 }

@@ -143,7 +143,7 @@ static double interpolated_load(const fixture *f, const gm_map_table *t, int p,
     key.gear[p] = t->key.gear[p];
     key.direction[0] = (ratio < 0) != (t->key.direction[0] == GM_BACKWARD);
     const gm_map_table *d = gm_map_find(f->map, &key);
-    gm_table2 view = {{d->n[0], d->x[0]}, {d->n[1], d->x[1]}, d->value};
+    gm_table2 view = {{d->n[0], d->x[0]}, {d->n[1], d->x[1]}, d->value, 0};
     gm_cell2 cell = {0};
     return fabs(ratio) * gm_table2_at(&view, 1, &cell, fabs(ratio) * w_o, torque).value;
 }
