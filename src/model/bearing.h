@@ -72,7 +72,8 @@ typedef struct gm_bearing_law {
 typedef struct gm_bearing_speed {
     double w;                  /* >= 0 */
     double rolling, d_rolling; /* SKF: phi_ish phi_rs (nu n)^0.6; Palmgren: M_0 [N.mm];
-                                  hydrodynamic, elastic: viscous torque [N.m] */
+                                  hydrodynamic, elastic: viscous torque, Coulomb: that
+                                  of its table [N.m] */
     double sliding, d_sliding; /* SKF: mu_sl; hydrodynamic, elastic: Stribeck share */
     double drag, d_drag;       /* SKF: in the oil bath [N.mm] */
     double F_g_rr, d_F_g_rr;   /* SKF angular contact: centrifugal load [N], rolling */

@@ -7,7 +7,9 @@
  *   g_c   = T_c + mu_c r F,   g_s = T_s + mu_s r F,   F = sqrt(F_r^2 + F_a^2)
  *
  * r is half the mean diameter of a rolling bearing, (d + D)/4, and half the bore of a
- * plain bearing. Coulomb friction has g_s = g_c and k_v = 0.
+ * plain bearing. Coulomb friction has g_s = g_c and k_v = 0; T_c may be a table over
+ * speed, straight between its points and beyond the last one, as in the bearing friction
+ * of the Modelica Standard Library.
  *
  * The film of a plain bearing adds Petroff's torque: k_v includes 2 pi eta r^3 L / c,
  * for c much less than r and a shaft that runs centrally: light load or high speed. A
@@ -115,28 +117,72 @@ static gm_status check_levels(const gm_bearing_data *data, gm_error *error)
     return GM_OK;
 }
 
+static gm_status check_table(const gm_bearing_data *data, gm_error *error)
+{
+    const gm_friction_point *p = data->table;
+    int last = data->n_table - 1;
+    if (last < 0)
+        return GM_OK;
+    if (!isnan(data->torque))
+        return gm_fail(error, GM_ERR_MODEL,
+                       "torque_Nm and torque_over_speed exclude each other");
+    if (last < 1 || p[0].speed != 0.0)
+        return gm_fail(error, GM_ERR_MODEL,
+                       "torque_over_speed needs two points at least, the first at 0 rpm");
+    for (int i = 1; i <= last; i++)
+        if (!(p[i].speed > p[i - 1].speed))
+            return gm_fail(error, GM_ERR_MODEL,
+                           "speeds of torque_over_speed must rise; found %g rpm at point "
+                           "%d after %g",
+                           p[i].speed * 30.0 / GM_PI, i + 1,
+                           p[i - 1].speed * 30.0 / GM_PI);
+    if (p[last].torque < p[last - 1].torque)
+        return gm_fail(error, GM_ERR_MODEL,
+                       "torque_over_speed must not fall at its end, which is continued; "
+                       "found %g N.m after %g",
+                       p[last].torque, p[last - 1].torque);
+    return GM_OK;
+}
+
 gm_status gm_sliding_check(const gm_bearing_data *data, gm_error *error)
 {
     double T_c = given(data->torque, 0.0);
     const char *friction = gm_bearing_friction_name(data->friction);
-    if (data->friction == GM_FRICTION_COULOMB && isnan(data->torque) && isnan(data->mu))
-        return needs(error, friction, "torque_Nm or mu");
+    bool nothing = isnan(data->torque) && isnan(data->mu) && data->n_table == 0;
+    if (data->friction == GM_FRICTION_COULOMB && nothing)
+        return needs(error, friction, "torque_Nm, torque_over_speed or mu");
     if (data->friction == GM_FRICTION_ELASTIC && !(T_c > 0.0))
         return needs(error, friction, "torque_Nm greater than 0");
     if (data->friction == GM_FRICTION_HYDRODYNAMIC && isnan(data->viscous) &&
         isnan(data->clearance))
         return needs(error, friction, "viscous_Nms_rad, or the clearance_mm of a film");
     gm_status status = check_dimensions(data, friction, error);
+    if (status == GM_OK)
+        status = check_table(data, error);
     return status == GM_OK ? check_levels(data, error) : status;
 }
 
-/* In gm_bearing_speed: sliding is the Stribeck share, rolling the viscous torque. */
+/* The piece that begins at the last point not above w. */
+static void read_table(const gm_bearing_data *data, double w, gm_bearing_speed *speed)
+{
+    const gm_friction_point *p = data->table;
+    for (int i = 2; i < data->n_table && w >= p[1].speed; i++)
+        p++;
+    speed->d_rolling = (p[1].torque - p[0].torque) / (p[1].speed - p[0].speed);
+    speed->rolling = p[0].torque + speed->d_rolling * (w - p[0].speed);
+}
+
+/* In gm_bearing_speed: sliding is the Stribeck share, rolling the viscous torque or that
+ * of the table. */
 gm_bearing_speed gm_sliding_at_speed(const gm_bearing_law *law, double w)
 {
     const gm_sliding *s = &law->sliding;
     gm_bearing_speed speed = {.w = w, .rolling = s->viscous * w, .d_rolling = s->viscous};
-    if (law->data.friction == GM_FRICTION_COULOMB)
+    if (law->data.friction == GM_FRICTION_COULOMB) {
+        if (law->data.n_table > 0)
+            read_table(&law->data, w, &speed);
         return speed;
+    }
     double u = w / s->stribeck;
     speed.sliding = exp(-u * u);
     speed.d_sliding = -2.0 * u / s->stribeck * speed.sliding;

@@ -227,7 +227,7 @@ static gm_status declare_items(const gm_field_reader *r, const gm_slot *s)
             return out_of_memory(r);
         memcpy(s->target, &items, sizeof items);
     }
-    memcpy(s->in->base + f->count_offset, &s->node->n, sizeof s->node->n);
+    memcpy(gm_slot_count(s), &s->node->n, sizeof s->node->n);
     gm_status status = GM_OK;
     for (int i = 0; i < s->node->n && status == GM_OK; i++)
         status = label_item(r, s->in, f->section, s->node->item[i],

@@ -215,7 +215,7 @@ static gm_status read_references(const gm_field_reader *r, const gm_slot *s)
         if (!list)
             return out_of_memory(r);
         memcpy(s->target, &list, sizeof list);
-        memcpy(s->in->base + f->count_offset, &s->node->n, sizeof s->node->n);
+        memcpy(gm_slot_count(s), &s->node->n, sizeof s->node->n);
     }
     one.type = GM_FIELD_REFERENCE;
     gm_status status = GM_OK;
@@ -270,7 +270,7 @@ static gm_status read_locks(const gm_field_reader *r, const gm_slot *s)
             return out_of_memory(r);
     }
     memcpy(s->target, &locks, sizeof locks);
-    memcpy(s->in->base + s->field->count_offset, &n, sizeof n);
+    memcpy(gm_slot_count(s), &n, sizeof n);
     for (int i = 0; i < n && status == GM_OK; i++) {
         gm_slot item = {s->in, s->field, is_list ? s->node->item[i] : s->node,
                         (char *)&locks[i]};

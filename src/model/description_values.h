@@ -36,6 +36,13 @@ typedef struct gm_slot {
     char *target;
 } gm_slot;
 
+/** Where the int that counts the slot's entries stands: in the structure whose field it
+ *  is, which for an inline section begins inside another. */
+static inline char *gm_slot_count(const gm_slot *s)
+{
+    return s->target - s->field->offset + s->field->count_offset;
+}
+
 /** Read a value that is neither a group nor items. GM_ERR_FORMAT with what it must be and
  *  what was found, GM_ERR_MEMORY. */
 GM_NODISCARD gm_status gm_slot_read(const gm_field_reader *r, const gm_slot *s);

@@ -81,6 +81,14 @@ typedef enum gm_bearing_cap {
     GM_CAP_RS1
 } gm_bearing_cap;
 
+/** A point of a table of friction over speed. */
+typedef struct gm_friction_point {
+    double speed, torque; /* rad/s, N.m */
+    int line;
+} gm_friction_point;
+
+enum { GM_FRICTION_POINTS = 16 };
+
 /** A bearing's own data, as the friction models need it. */
 typedef struct gm_bearing_data {
     gm_bearing_type type;
@@ -94,12 +102,14 @@ typedef struct gm_bearing_data {
     gm_bearing_supply supply;       /* SKF */
     gm_bearing_cap cap;             /* SKF */
     double cap_diameter;            /* where its seals slide, m */
-    double torque, static_torque;   /* Coulomb, elastic, hydrodynamic, N.m */
-    double mu, static_mu;           /* likewise, at the mean radius */
-    double stribeck;                /* elastic, hydrodynamic: w_s, rad/s */
-    double viscous;                 /* likewise, N.m.s/rad */
-    double stiffness, damping;      /* elastic: N.m/rad, N.m.s/rad */
-    double clearance;               /* hydrodynamic, plain: radial, m */
+    gm_friction_point table[GM_FRICTION_POINTS]; /* Coulomb: in place of a torque */
+    int n_table;
+    double torque, static_torque; /* Coulomb, elastic, hydrodynamic, N.m */
+    double mu, static_mu;         /* likewise, at the mean radius */
+    double stribeck;              /* elastic, hydrodynamic: w_s, rad/s */
+    double viscous;               /* likewise, N.m.s/rad */
+    double stiffness, damping;    /* elastic: N.m/rad, N.m.s/rad */
+    double clearance;             /* hydrodynamic, plain: radial, m */
     /* NAN where not given and not known from the designation */
 } gm_bearing_data;
 

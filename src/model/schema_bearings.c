@@ -36,6 +36,19 @@ static const gm_choice bearing_caps[] = {{"none", GM_CAP_NONE},
                                          {"rs1", GM_CAP_RS1},
                                          {NULL, 0}};
 
+#define OWNER gm_friction_point
+static const gm_field point_fields[] = {
+    {NUMBER("speed_rpm", 0, 1e5), AT(speed), .help = "speed, from 0 upwards"},
+    {NUMBER("torque_Nm", 0, 1e5), AT(torque), .help = "friction at that speed"},
+    END};
+static const gm_section point_section = {
+    .title = "torque_over_speed", .word = "point",
+    .help = "Friction of a bearing over its speed: straight lines between the points, "
+            "the last one continued.",
+    .fields = point_fields, .size = sizeof(gm_friction_point), .key = GM_KEY_NONE,
+    .line = offsetof(gm_friction_point, line)};
+#undef OWNER
+
 #define GIVEN "coulomb, elastic or hydrodynamic"
 #define STRIBECK "elastic or hydrodynamic"
 #define OWNER gm_bearing_data
@@ -76,6 +89,11 @@ static const gm_field bearing_data_fields[] = {
      .help = "where those seals slide, d1 or d2 of the catalogue; needed"},
     {NUMBER("torque_Nm", 0, 1e5), AT(torque), OPTIONAL, ONLY("friction", GIVEN),
      .help = "friction without load while it slides; default 0, elastic needs it"},
+    {.key = "torque_over_speed", .type = GM_FIELD_ITEMS, .section = &point_section,
+     AT(table), .count_offset = offsetof(gm_bearing_data, n_table),
+     .fixed_count = GM_FRICTION_POINTS, OPTIONAL, ONLY("friction", "coulomb"),
+     .help = "friction without load in place of torque_Nm; the torque of the first "
+             "point is that at rest"},
     {NUMBER("mu", 0, 1), AT(mu), OPTIONAL, ONLY("friction", GIVEN),
      .help = "coefficient of friction while it slides, at half the mean diameter, of a "
              "plain bearing at half the bore; default 0"},

@@ -144,6 +144,22 @@ static void write_fields(const writer *w, const gm_section *section)
     }
 }
 
+static void write_section(const writer *w, const char *path, const gm_section *section);
+
+/* Sections inside, those of inline sections too. */
+static void write_inner(const writer *w, const char *path, const gm_section *section)
+{
+    for (const gm_field *f = section->fields; f->key; f++) {
+        char inner[128];
+        (void)snprintf(inner, sizeof inner, "%s%s%s", section == w->root ? "" : path,
+                       section == w->root ? "" : " / ", f->key);
+        if (f->type == GM_FIELD_INLINE)
+            write_inner(w, path, f->section);
+        else if (f->type == GM_FIELD_GROUP || f->type == GM_FIELD_ITEMS)
+            write_section(w, inner, f->section);
+    }
+}
+
 static void write_section(const writer *w, const char *path, const gm_section *section)
 {
     w->write(w->context, "### ");
@@ -153,14 +169,7 @@ static void write_section(const writer *w, const char *path, const gm_section *s
     w->write(w->context, "\n\n");
     write_fields(w, section);
     w->write(w->context, "\n");
-    for (const gm_field *f = section->fields; f->key; f++) {
-        if (f->type != GM_FIELD_GROUP && f->type != GM_FIELD_ITEMS)
-            continue;
-        char inner[128];
-        (void)snprintf(inner, sizeof inner, "%s%s%s", section == w->root ? "" : path,
-                       section == w->root ? "" : " / ", f->key);
-        write_section(w, inner, f->section);
-    }
+    write_inner(w, path, section);
 }
 
 void gm_schema_help(const gm_section *root,

@@ -101,6 +101,39 @@ static void coulomb_friction_is_proportional_to_load(void **state)
     assert_true(steady(&law, 1., 1e4, 1e4) == 0.02);
 }
 
+/* The example of the Modelica Standard Library: 0 0; 1 2; 2 5; 3 8 gives 6.5 at 2.5. */
+static gm_bearing_data tabulated(void)
+{
+    gm_bearing_data data = nothing(GM_FRICTION_COULOMB);
+    const gm_friction_point table[] = {
+        {.speed = 0.}, {1., 2., 0}, {2., 5., 0}, {3., 8., 0}};
+    memcpy(data.table, table, sizeof table);
+    data.n_table = 4;
+    return data;
+}
+
+static void friction_from_a_table(void **state)
+{
+    (void)state;
+    gm_bearing_law law = law_of(tabulated(), 0.0075);
+    const double expected[][2] = {{0., 0.}, {0.5, 1.},  {1., 2.}, {1.5, 3.5},
+                                  {2., 5.}, {2.5, 6.5}, {3., 8.}, {10., 29.}};
+    for (int i = 0; i < 8; i++)
+        check_close("T", 1. + steady(&law, expected[i][0], 100., 50.),
+                    1. + expected[i][1], 1e-14);
+    gm_bearing_data data = tabulated();
+    data.table[0].torque = 3., data.mu = 0.001; /* more at rest, and with load */
+    law = law_of(data, 0.0075);
+    check_close("T", steady(&law, 0., 3., 4.), 3. + 0.001 * 0.023 * 5., 1e-13);
+    bearing_point p = {law, 0.25, 300., 20.};
+    check_slope("M(w)", torque_of_w, &p, p.w, torque_at(&p).d_speed);
+    p.w = 7.;
+    check_slope("M(w)", torque_of_w, &p, p.w, torque_at(&p).d_speed);
+    data = tabulated(), data.n_table = 2; /* the shortest: one line */
+    law = law_of(data, 0.0075);
+    check_close("T", steady(&law, 7., 0., 0.), 14., 1e-14);
+}
+
 static void random_data(gm_bearing_data *data, uint64_t *seed, int i)
 {
     static const gm_bearing_friction_model models[] = {
@@ -223,11 +256,32 @@ static void check_refused(gm_bearing_data data, const char *part)
         fail_msg("\"%s\" lacks \"%s\"", error.message, part);
 }
 
+static void tables_that_are_none_are_refused(void **state)
+{
+    (void)state;
+    gm_bearing_data data = tabulated();
+    data.torque = 1.;
+    check_refused(data, "torque_Nm and torque_over_speed exclude each other");
+    data = tabulated();
+    data.table[0].speed = 0.5;
+    check_refused(data, "two points at least, the first at 0 rpm");
+    data = tabulated();
+    data.n_table = 1;
+    check_refused(data, "two points at least, the first at 0 rpm");
+    data = tabulated();
+    data.table[2].speed = 1.;
+    check_refused(data, "must rise; found 9.5493 rpm at point 3 after 9.5493");
+    data = tabulated();
+    data.table[3].torque = 4.;
+    check_refused(data, "must not fall at its end, which is continued; found 4 N.m "
+                        "after 5");
+}
+
 static void what_is_missing_is_refused(void **state)
 {
     (void)state;
     gm_bearing_data data = nothing(GM_FRICTION_COULOMB);
-    check_refused(data, "friction coulomb needs torque_Nm or mu");
+    check_refused(data, "friction coulomb needs torque_Nm, torque_over_speed or mu");
     data.mu = 0.1, data.d = none;
     check_refused(data, "needs bore_mm beside mu");
     data.d = 70e-3;
@@ -266,6 +320,8 @@ int main(void)
         cmocka_unit_test(elastic_friction_follows_the_stribeck_curve),
         cmocka_unit_test(film_of_a_plain_bearing),
         cmocka_unit_test(coulomb_friction_is_proportional_to_load),
+        cmocka_unit_test(friction_from_a_table),
+        cmocka_unit_test(tables_that_are_none_are_refused),
         cmocka_unit_test(derivatives_are_exact),
         cmocka_unit_test(derivatives_in_motion_are_exact),
         cmocka_unit_test(motion_settles_on_the_steady_law),

@@ -67,6 +67,27 @@ static const gm_test_rule rules[] = {
      "bearing 'input_odd_rear': static_mu has an effect only with friction elastic or "
      "hydrodynamic, found friction coulomb",
      GM_ERR_FORMAT, NULL},
+    {REAR,
+     "type: deep_groove_ball, designation: \"6306\", friction: palmgren, "
+     "torque_over_speed: [{speed_rpm: 0, torque_Nm: 1}]}",
+     "torque_over_speed",
+     "bearing 'input_odd_rear': torque_over_speed has an effect only with friction "
+     "coulomb, found friction palmgren",
+     GM_ERR_FORMAT, NULL},
+    {REAR,
+     "type: deep_groove_ball, designation: \"6306\", friction: coulomb, "
+     "torque_over_speed: [{speed_rpm: 0, torque_Nm: 1}, {speed_rpm: 9, torque_Nm: 0.5}]}",
+     "input_odd_rear",
+     "bearing 'input_odd_rear': torque_over_speed must not fall at its end, which is "
+     "continued; found 0.5 N.m after 1",
+     GM_ERR_MODEL, NULL},
+    {REAR,
+     "type: deep_groove_ball, designation: \"6306\", friction: coulomb, "
+     "torque_over_speed: [{speed_rpm: 0}]}",
+     "torque_over_speed",
+     "bearing 'input_odd_rear', point 1: torque_Nm is missing; expected a number in N.m "
+     "from 0 to 100000",
+     GM_ERR_FORMAT, NULL},
     {REAR, "type: deep_groove_ball, designation: \"6306\", seal_diameter_mm: 40}",
      "seal_diameter",
      "bearing 'input_odd_rear': seal_diameter_mm has an effect only with seals rsl, rsh "

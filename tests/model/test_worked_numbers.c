@@ -8,7 +8,7 @@
  *   75W oil by ASTM D341 and by Vogel               test_oil.c
  *   6206 and 30206 by SKF, oil bath, seals          test_bearing_skf.c
  *   6206 by Palmgren                                test_bearing_palmgren.c
- *   Stribeck curve, film of a plain bearing         test_bearing_sliding.c
+ *   Stribeck curve, plain bearing, table            test_bearing_sliding.c
  *   break-away deflection                           test_bristle.c
  *   shaft seals, gaps, plates, Changenet and Velex  test_drag.c
  *   ISO/TR 14179-1 and -2 in the bath, jets         test_drag_speed.c
