@@ -16,7 +16,7 @@
 
 #include <cmocka.h>
 
-enum { VARIATIONS = 200 }; /* as many as tests/model/CMakeLists.txt asks for */
+enum { VARIATIONS = 500 }; /* as many as tests/model/CMakeLists.txt asks for */
 
 static void check_ratios(const gm_description *d)
 {

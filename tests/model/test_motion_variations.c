@@ -9,7 +9,7 @@
 
 #include <stdio.h>
 
-enum { VARIATIONS = 200 }; /* as many as tests/model/CMakeLists.txt asks for */
+enum { VARIATIONS = 200 }; /* of those that tests/model/CMakeLists.txt asks for */
 
 static void every_variation_moves_with_an_exact_jacobian(void **state)
 {
