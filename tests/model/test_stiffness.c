@@ -62,6 +62,8 @@ static void frequency_and_damping_of_the_rig(void **state)
     check_close("m_red", mass, 0.8186223, PRINTED);
     gm_flanks flanks = {.model = GM_CONTACT_FILM, .damping_ratio = 0.07};
     gm_contact_law law = gm_flanks_law(&flanks, 4.0526e8, 0., mass);
+    check_close("k r_b1^2", law.stiffness * row.g[0] * row.g[0], 4.6593e5,
+                5e-5); /* radius: five digits */
     check_close("f_0", sqrt(law.stiffness / mass) / (2. * GM_PI), 3541.16, PRINTED);
     check_close("damping", law.damping, 2550., 1e-3); /* printed with three digits */
 }

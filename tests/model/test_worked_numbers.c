@@ -13,6 +13,8 @@
  *   shaft seals, gaps, plates, Changenet and Velex  test_drag.c
  *   ISO/TR 14179-1 and -2 in the bath, jets         test_drag_speed.c
  *   loads of a helical pinion on two bearings       test_statics.c, test_gearset.c
+ *   contact law, mesh stiffness, its frequency      test_contact.c, test_stiffness.c
+ *   planetary efficiency by Willis                  test_planets.c
  *   steel disc                                      test_inertia.c
  */
 #include "bearing_cases.h"
@@ -140,6 +142,34 @@ static void churning_coefficients(void **state)
     }
 }
 
+/* Ratios of the gears of the only path, as the teeth make them. */
+static void check_ratios(const char *file, const double (*table)[2], int n)
+{
+    gm_description *d = gm_test_read(file);
+    gm_gearset *g = NULL;
+    assert_int_equal(gm_gearset_create(d, 353.15, &g, NULL), GM_OK);
+    for (int i = 0; i < n; i++) {
+        gm_kinematics k;
+        const int gear[GM_MAX_INPUT_PATHS] = {(int)table[i][0]};
+        assert_int_equal(gm_gearset_kinematics(g, gear, &k, NULL), GM_OK);
+        check_close(file, k.ratio[0], table[i][1], 1e-7); /* seven decimals printed */
+    }
+    gm_gearset_destroy(g);
+    gm_description_destroy(d);
+}
+
+/* Simpson set of 33 and 72 teeth, Ravigneaux set of 57, 21 and 27. */
+static void ratios_of_automatics(void **state)
+{
+    (void)state;
+    const double simpson[][2] = {
+        {1, 2.4583333}, {2, 1.4583333}, {3, 1.}, {-1, -2.1818182}};
+    const double ravigneaux[][2] = {
+        {1, 2.7142857}, {2, 1.5510204}, {3, 1.}, {4, 0.6785714}, {-1, -2.1111111}};
+    check_ratios(GM_SOURCE_DIR "/examples/at3_simpson.yaml", simpson, 4);
+    check_ratios(GM_SOURCE_DIR "/examples/at4_ravigneaux.yaml", ravigneaux, 5);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -149,6 +179,7 @@ int main(void)
         cmocka_unit_test(power_by_skf),
         cmocka_unit_test(parts_by_palmgren),
         cmocka_unit_test(churning_coefficients),
+        cmocka_unit_test(ratios_of_automatics),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -26,6 +26,16 @@ static void road_load_has_known_values(void **state)
     assert_true(fabs(gm_road_load(&car, 50.0 / 3.6, &slope) - 195.366) < 0.01);
     assert_true(fabs(gm_road_load(&car, 120.0 / 3.6, &slope) - 530.219) < 0.01);
     assert_true(gm_road_load(&car, 0.0, &slope) == 0.0);
+    car.drag_area = 0.60775; /* and with this: worked examples of seven digits */
+    const double table[][2] = {{15., 131.3494},
+                               {32., 153.8305},
+                               {50., 195.3601},
+                               {100., 406.3844},
+                               {120., 530.1853}};
+    for (int i = 0; i < 5; i++) {
+        double load = gm_road_load(&car, table[i][0] / 3.6, &slope);
+        assert_true(fabs(load / table[i][1] - 1.0) < 1e-6);
+    }
     assert_true(fabs(gm_road_load(&car, -10.0, &slope) +
                      gm_road_load(&car, 10.0, &slope)) < 1e-12);
 }
