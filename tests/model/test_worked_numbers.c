@@ -14,7 +14,7 @@
  *   ISO/TR 14179-1 and -2 in the bath, jets         test_drag_speed.c
  *   loads of a helical pinion on two bearings       test_statics.c, test_gearset.c
  *   contact law, mesh stiffness, its frequency      test_contact.c, test_stiffness.c
- *   planetary efficiency by Willis                  test_planets.c
+ *   planetary efficiency by Willis                  solve/test_planetary.c
  *   steel disc                                      test_inertia.c
  */
 #include "bearing_cases.h"
