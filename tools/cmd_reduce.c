@@ -97,6 +97,8 @@ static gm_status verify(const arguments *a, reduction *r, const char *name,
     if (status == GM_OK)
         status =
             gm_stage_keep_errors(&r->verify, &r->bake, r->sweep.map, name, a->map, error);
+    if (status == GM_OK) /* the errors are in the archive now */
+        r->bake.summary.file_size = gm_file_size(name);
     return status;
 }
 
