@@ -112,14 +112,17 @@ static const char *const views[] = {
     "  g.ratio / g.ratio_given - 1 AS relative_deviation,\n"
     "  g.stiffness AS stiffness_Nm_rad, g.damping AS damping_Nms_rad,\n"
     "  g.lash * 57.2957795130823 AS lash_deg, g.film * 57.2957795130823 AS film_deg,\n"
-    "  p.inertia AS path_inertia_kgm2, p.sync_torque AS sync_torque_Nm\n"
+    "  p.inertia AS path_inertia_kgm2, g.inertia_extra AS inertia_extra_kgm2,\n"
+    "  p.sync_torque AS sync_torque_Nm\n"
     "FROM gear g JOIN path p ON p.path = g.path",
 
     "CREATE VIEW v_configuration AS SELECT t.gear_0, t.gear_1,\n"
     "  " META("inertia_output") "\n"
-    "  + COALESCE((SELECT g.ratio * g.ratio * p.inertia FROM gear g JOIN path p\n"
+    "  + COALESCE((SELECT g.ratio * g.ratio * p.inertia + g.inertia_extra\n"
+    "      FROM gear g JOIN path p\n"
     "      ON p.path = g.path WHERE g.path = 0 AND g.gear = t.gear_0), 0)\n"
-    "  + COALESCE((SELECT g.ratio * g.ratio * p.inertia FROM gear g JOIN path p\n"
+    "  + COALESCE((SELECT g.ratio * g.ratio * p.inertia + g.inertia_extra\n"
+    "      FROM gear g JOIN path p\n"
     "      ON p.path = g.path WHERE g.path = 1 AND g.gear = t.gear_1), 0)\n"
     "  AS inertia_at_output_kgm2\n"
     "FROM map_table t WHERE t.symbol = 'parasitic_loss' AND t.direction_0 = 'forward'",
