@@ -20,6 +20,11 @@ def baked(request):
     return request.getfixturevalue(request.param)
 
 
+@pytest.fixture(params=[1, 2], ids=["rigid", "lash"])
+def fidelity(request):
+    return request.param
+
+
 def flanges(baked):
     return [n.split(".")[0] for n in baked.variables if n.endswith(".gear")]
 
@@ -75,10 +80,10 @@ def resume_all(file, folder, states, results):
     h.fmu.freeInstance()
 
 
-def drive(h):
+def drive(h, fidelity):
     """Values after each step, and states kept on the way, every other one between the
     commands and the step."""
-    h.start()
+    h.start({"fidelity": fidelity})
     points = sorted(random.Random(1).sample(range(STEPS - RESUMED), POINTS))
     record, states, synchronising = [], [], 0
     for i in range(STEPS):
@@ -97,9 +102,9 @@ def drive(h):
     return record, states, synchronising
 
 
-def test_runs_are_resumed_in_another_process(baked, host, tmp_path):
+def test_runs_are_resumed_in_another_process(baked, fidelity, host, tmp_path):
     with host(baked) as h:
-        record, states, synchronising = drive(h)
+        record, states, synchronising = drive(h, fidelity)
     assert len(states) == POINTS
     assert synchronising > 0
     context = multiprocessing.get_context("spawn")
@@ -113,9 +118,9 @@ def test_runs_are_resumed_in_another_process(baked, host, tmp_path):
     assert other.exitcode == 0
 
 
-def test_states_go_back_in_the_same_process(baked, host):
+def test_states_go_back_in_the_same_process(baked, fidelity, host):
     with host(baked) as h:
-        record, states, _ = drive(h)
+        record, states, _ = drive(h, fidelity)
         h.fmu.reset()
         state = None
         for first, pending, data in reversed(states):
@@ -125,10 +130,10 @@ def test_states_go_back_in_the_same_process(baked, host):
         h.fmu.freeFMUstate(state)
 
 
-def test_the_same_state_has_the_same_bytes(baked, host):
+def test_the_same_state_has_the_same_bytes(baked, fidelity, host):
     def data():
         with host(baked) as h:
-            return [s for _, _, s in drive(h)[1]]
+            return [s for _, _, s in drive(h, fidelity)[1]]
     assert data() == data()
 
 
