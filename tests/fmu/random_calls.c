@@ -29,7 +29,7 @@ bool random_chance(random_run *r, unsigned one_in)
 double random_number(random_run *r)
 {
     static const double odd[] = {0.0,    -0.0,  1e-320, 1e30,     -1e107,    1e200,
-                                 -1e300, 1e308, 1.0,    INFINITY, -INFINITY, NAN};
+                                 -1e300, 1e308, 1.0,    HUGE_VAL, -HUGE_VAL, (double)NAN};
     if (random_chance(r, 12))
         return odd[random_draw(r, sizeof odd / sizeof *odd)];
     double size = random_chance(r, 3) ? 400.0 : 5.0;
@@ -76,7 +76,7 @@ void random_note_size(random_run *r, double x)
 
 fmi2Status random_setup(random_run *r, bool *legal)
 {
-    static const double starts[] = {0.0, 5.0, -3.0, 1e5, NAN, INFINITY};
+    static const double starts[] = {0.0, 5.0, -3.0, 1e5, (double)NAN, HUGE_VAL};
     bool stop = random_chance(r, 3);
     double from = starts[random_chance(r, 4) ? random_draw(r, 6) : 0];
     double until = random_chance(r, 8) ? random_number(r) : from + random_draw(r, 10);
@@ -133,8 +133,8 @@ fmi2Status random_reset(random_run *r, bool *legal)
 
 fmi2Status random_step(random_run *r, bool *legal)
 {
-    static const double sizes[] = {1e-6,  1e-3, 0.01,     0.1,  0.0,
-                                   -1e-3, NAN,  INFINITY, 1e200};
+    static const double sizes[] = {1e-6,  1e-3,        0.01,     0.1,  0.0,
+                                   -1e-3, (double)NAN, HUGE_VAL, 1e200};
     const oracle *o = &r->oracle;
     double h = sizes[random_draw(r, random_chance(r, 10) ? 9 : 4)];
     double t = random_chance(r, 30) ? random_number(r) : o->time;
@@ -171,7 +171,7 @@ fmi2Status random_logging(random_run *r, bool *legal)
 fmi2Status random_status(random_run *r, bool *legal)
 {
     fmi2StatusKind kind = (fmi2StatusKind)random_draw(r, 5);
-    double time = NAN;
+    double time = (double)NAN;
     fmi2Boolean yes = 7;
     fmi2String text = NULL;
     *legal =

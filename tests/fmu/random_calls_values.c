@@ -84,7 +84,7 @@ fmi2Status random_get_real(random_run *r, bool *legal)
     *legal = random_is_in(r, TO_GET);
     for (unsigned i = 0; i < n; i++) {
         vr[i] = random_useful_reference(r, GM_TYPE_REAL, false);
-        value[i] = NAN;
+        value[i] = (double)NAN;
         *legal = *legal && oracle_may_get(vr[i], GM_TYPE_REAL);
     }
     fmi2Status status = fmi2GetReal(random_handle(r, legal), vr, n, value);
@@ -135,7 +135,7 @@ fmi2Status random_output_rates(random_run *r, bool *legal)
 {
     unsigned vr = random_useful_reference(r, GM_TYPE_REAL, false);
     int order = random_chance(r, 10) ? (int)random_draw(r, 4) - 1 : 1;
-    double rate = NAN;
+    double rate = (double)NAN;
     const gm_variable *v = oracle_variable(vr);
     *legal = !r->oracle.exchange && random_is_in(r, TO_GET & ~INITIALISATION) &&
              oracle_may_get(vr, GM_TYPE_REAL) && v->causality == GM_CAUSALITY_OUTPUT;
