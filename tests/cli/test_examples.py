@@ -108,5 +108,6 @@ def test_the_component_simulates_a_second(example):
     assert out["time"][-1] == pytest.approx(1.0)
     for name in (f"{flange}.w", "output.w"):
         assert np.all(np.isfinite(out[name]))
-    assert out[f"{flange}.w"][-1] == pytest.approx(gear["ratio"] * out["output.w"][-1], rel=1e-9)
+    # 1e-6: what is left after a second of the vibration of fidelity lash, the default
+    assert out[f"{flange}.w"][-1] == pytest.approx(gear["ratio"] * out["output.w"][-1], rel=1e-6)
     assert 250 < out[f"{flange}.w"][-1] < 500
