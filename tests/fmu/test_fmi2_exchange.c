@@ -49,7 +49,7 @@ static fmi2Component bring_to(host *h, place where)
     if (where == TERMINATED)
         assert_int_equal(fmi2Terminate(c), fmi2OK);
     if (where == BROKEN)
-        assert_int_equal(fmi2SetTime(c, NAN), fmi2Error);
+        assert_int_equal(fmi2SetTime(c, (double)NAN), fmi2Error);
     return c;
 }
 
@@ -207,7 +207,7 @@ static void numbers_that_are_none_are_refused(void **state)
     double x[NX] = {0};
     (void)state;
     fmi2Component c = bring_to(&h, CONTINUOUS);
-    x[3] = NAN;
+    x[3] = (double)NAN;
     assert_refused(&h, fmi2SetContinuousStates(c, x, NX), "finite", NULL);
     assert_int_equal(fmi2GetContinuousStates(c, x, NX), fmi2OK);
     assert_true(x[3] == 0);

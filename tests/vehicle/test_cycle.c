@@ -121,7 +121,8 @@ static void broken_cycles_are_refused(void **state)
     gm_cycle *c = NULL;
     gm_error error;
     const double late[] = {1.0, 2.0}, back[] = {0.0, 0.0}, fine[] = {0.0, 1.0};
-    const double speed[] = {0.0, 1.0}, negative[] = {0.0, -1.0}, nan_[] = {0.0, (double)NAN};
+    const double speed[] = {0.0, 1.0}, negative[] = {0.0, -1.0},
+                 nan_[] = {0.0, (double)NAN};
     assert_int_equal(gm_cycle_named("ftp75", &c, &error), GM_ERR_ARGUMENT);
     assert_non_null(strstr(error.message, "wltc3b"));
     assert_int_equal(gm_cycle_create("x", 2, late, speed, 0, NULL, &c, &error),
