@@ -61,8 +61,8 @@ static gm_status set_up(const gm_gearset_file *file, const gm_point_request *r,
     memset(point, 0, sizeof *point);
     point->gear[p] = r->gear;
     if (d->n_paths > 1)
-        point->gear[other] = r->preselected != 0 ? r->preselected
-                                                 : gm_path_rest_gear(&d->paths[other]);
+        point->gear[other] =
+            r->preselected != 0 ? r->preselected : gm_path_rest_gear(&d->paths[other]);
     gm_kinematics k;
     status = gm_gearset_kinematics(file->gearset, point->gear, &k, error);
     if (status != GM_OK)

@@ -192,8 +192,7 @@ static void gears_configurations_and_the_whole(void **state)
     assert_near(number("SELECT inertia_at_output_kgm2 FROM v_configuration "
                        "WHERE gear_0 = 3 AND gear_1 = -1"),
                 map->inertia_output + r * r * map->paths[0].inertia +
-                    s * s * map->paths[1].inertia +
-                    map->paths[0].gears[1].inertia_extra +
+                    s * s * map->paths[1].inertia + map->paths[0].gears[1].inertia_extra +
                     map->paths[1].gears[0].inertia_extra);
     assert_near(number("SELECT inertia_at_output_kgm2 FROM v_configuration "
                        "WHERE gear_0 = 0 AND gear_1 = 0"),

@@ -155,8 +155,7 @@ static const struct {
     {"friction_surfaces: ", "friction_surfaces: -", "a whole number from 0 to 100"},
     {"inner_radius_mm: 50", "inner_radius_mm: 130", "must be less than outer_radius_mm"},
     {"  drive: {shaft: in, on: ", "  drive: {shaft: in, onto: ", "unknown key 'onto'"},
-    {"clutches:\n",
-     "clutches:\n  p_ring: {shaft: in, on: sun, torque_capacity_Nm: 5}\n",
+    {"clutches:\n", "clutches:\n  p_ring: {shaft: in, on: sun, torque_capacity_Nm: 5}\n",
      "a gear in line"},
 };
 enum { FAULTS = sizeof faults / sizeof faults[0] };
