@@ -98,11 +98,11 @@ def simulate(gearset, writer):
     """Step through the scenario; returns totals for the summary."""
     set_torques = gearset.setter("odd.tau", "even.tau", "output.tau")
     observe = gearset.getter("odd.w", "even.w", "output.w", "loss_power", "work",
-                             "loss_energy", "kinetic_energy")
+                             "loss_energy", "kinetic_energy", "elastic_energy")
     gears = {path: latest(points, 0.0) for path, points in GEARS.items()}
     gearset.start(gears)
     engine, twist, v, distance, energy_in, worst = IDLE, 0.0, 0.0, 0.0, 0.0, 0.0
-    odd, even, output, *_, kinetic_at_start = observe()
+    odd, even, output, *_, kinetic_at_start, elastic_at_start = observe()
     for i in range(round(END / STEP)):
         t = i * STEP
         for path, points in GEARS.items():
@@ -118,11 +118,12 @@ def simulate(gearset, writer):
         tau_engine = linear(ENGINE, t) + IDLE_GAIN * max(0.0, IDLE - engine)
         engine += STEP * (tau_engine - tau_odd - tau_even) / ENGINE_INERTIA
         v += STEP * (shaft / WHEEL - resistance(v)) / MASS
-        odd, even, output, loss, work, lost, kinetic = observe()
+        odd, even, output, loss, work, lost, kinetic, elastic = observe()
         twist += STEP * (output - v / WHEEL)
         distance += STEP * v
         energy_in += STEP * (tau_odd * odd + tau_even * even)
-        worst = max(worst, abs(work - lost - (kinetic - kinetic_at_start)))
+        stored = kinetic - kinetic_at_start + elastic - elastic_at_start
+        worst = max(worst, abs(work - lost - stored))
         if i % 40 == 39:
             writer.writerow([f"{x:.6g}" for x in (
                 t + STEP, 3.6 * v, engine / RPM, odd / RPM, even / RPM, output / RPM,
