@@ -7,10 +7,12 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Sizes that absolute errors refer to. A twist of 0.1 rad at a tolerance of 1e-6 is a few
+ * thousandths of a newton metre of the stiffest gear. */
 #define NOMINAL_SPEED 100.0 /* rad/s */
-#define NOMINAL_ANGLE 10.0  /* rad; twists: their own */
-#define NOMINAL_TWIST 0.1
-#define NOMINAL_ENERGY 1e4 /* J */
+#define NOMINAL_ANGLE 10.0  /* rad */
+#define NOMINAL_TWIST 0.1   /* rad */
+#define NOMINAL_ENERGY 1e4  /* J */
 enum { EVENT_ROUNDS = 10 };
 
 static const char *flange_name(int n_paths, int flange)
