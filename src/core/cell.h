@@ -12,7 +12,7 @@
 
 /* A one-node axis has a cell without bounds. Beyond this width only the slow path, which
  * knows the number of nodes, answers. */
-#define GM_UNBOUNDED 1e30
+#define GM_UNBOUNDED GM_NUM(1e30)
 
 /* Where a query lies on one axis. */
 typedef struct gm_place {

@@ -48,8 +48,9 @@ int gm_reduced_configuration(const gm_reduced_map *map, const gm_reduced_state *
 }
 
 /* Inputs are multiplied with inertias, ratios and speeds: with this much room (to 1e108
- * as a double) nothing overflows on the way, where inf - inf would pass for a torque. */
-#define GM_HEADROOM 1e200
+ * as a double, 1e18 as a float) nothing overflows on the way, where inf - inf would pass
+ * for a torque. */
+#define GM_HEADROOM GM_BY_TYPE(1e200, 1e20)
 
 /* 0 for a number that can be computed with, else NaN. */
 static gm_real nothing_of(gm_real x)
@@ -205,13 +206,13 @@ int gm_holding(const gm_drive *d, const gm_solution *solution, gm_terms *t,
     gm_real limit = 0, applied = 0;
     int sign = 1;
     for (;; sign = -1) {
-        const gm_real excess = gm_excess(d, solution, GM_OUT, sign, t);
+        const gm_real excess = gm_excess(d, solution, GM_OUT, (gm_real)sign, t);
         limit = t->out;
         for (int p = 0; p < d->n_paths; p++) {
             limit += d->engaged[p] ? d->ratio[p] * t->path[p].load : t->path[p].reaction;
         }
         applied = excess + limit;
-        if (applied * sign >= 0 || sign < 0) {
+        if (applied * (gm_real)sign >= 0 || sign < 0) {
             break;
         }
     }
@@ -278,8 +279,9 @@ int gm_outputs_are_finite(const gm_reduced_outputs *o)
  * elastic paths are followed, not taken out. */
 static gm_real recommended_step(const gm_drive *d)
 {
-    static const gm_real steps[] = {1e-2, 5e-3, 2e-3, 1e-3, 5e-4,
-                                    2e-4, 1e-4, 5e-5, 2e-5, 1e-5};
+    static const gm_real steps[] = {
+        GM_NUM(1e-2), GM_NUM(5e-3), GM_NUM(2e-3), GM_NUM(1e-3), GM_NUM(5e-4),
+        GM_NUM(2e-4), GM_NUM(1e-4), GM_NUM(5e-5), GM_NUM(2e-5), GM_NUM(1e-5)};
     int i = 0;
     while (i < 9 && !gm_is_followed(d, steps[i], GM_PARTS)) {
         i++;

@@ -87,7 +87,7 @@ typedef struct gm_drag_line {
     gm_table1 jump[2]; /* by direction of w_o: x |w_o| [rad/s] -> N.m, >= 0 */
 } gm_drag_line;
 
-#define GM_LINE_WIDTH 1.0 /* rad/s, the ramp is from -1 to +1 around the line */
+#define GM_LINE_WIDTH GM_NUM(1.0) /* rad/s, the ramp is from -1 to +1 around the line */
 
 /** One path: an input flange and what is behind it. A path without drag tables
  *  (drag[0][0].value = NULL) has no neutral: it has one gear and is always in it. */
@@ -228,7 +228,8 @@ typedef struct gm_reduced_outputs {
 /** Flags of a call, or-ed. */
 enum {
     GM_FLAG_OUT_OF_MAP = 1, /* a table was left; its edge value was used */
-    GM_FLAG_NOT_FINITE = 2, /* an input is NaN or beyond 1e108, or a result overflowed:
+    GM_FLAG_NOT_FINITE =
+        2, /* an input is NaN or beyond 1e108 (float: 1e18), or a result overflowed:
                                the state is unchanged */
     GM_FLAG_GEAR_REFUSED_0 = 4, /* unknown gear number commanded on path 0; gear kept */
     GM_FLAG_GEAR_REFUSED_1 = 8

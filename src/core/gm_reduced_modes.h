@@ -35,7 +35,7 @@ extern "C" {
 #endif
 
 /* In the unit of an indicator: 100 rad/s, 100 N.m at a path, 1000 N.m at the output. */
-#define GM_INDICATOR_MARGIN 1e-9
+#define GM_INDICATOR_MARGIN GM_NUM(1e-9)
 
 enum { GM_OUTPUT_SHAFT = GM_MAX_PATHS, GM_MODE_SHAFTS = GM_MAX_PATHS + 1 };
 

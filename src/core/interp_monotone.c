@@ -27,7 +27,7 @@
 
 /* Of a slope, in adjacent secants: in one dimension, in two. */
 #define LIMIT_1 3
-#define LIMIT_2 1.5
+#define LIMIT_2 GM_NUM(1.5)
 
 static gm_real magnitude(gm_real x)
 {

@@ -11,7 +11,7 @@
 
 /* A pivot below this part of the inertia means that falling gradients or dD/dtau near 1
  * leave no unique solution. */
-#define PIVOT_LIMIT 0.1
+#define PIVOT_LIMIT GM_NUM(0.1)
 
 /* The linear system for the changes of the accelerations, a row for each shaft,
  * factorised in place: multipliers below the diagonal, inverse pivots on it. */

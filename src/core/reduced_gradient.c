@@ -14,7 +14,7 @@
 #include "reduced_parts.h"
 
 /* Read with this factor on losses where the given one is zero: too small to be felt. */
-#define TINY_SCALE 1e-30
+#define TINY_SCALE GM_NUM(1e-30)
 
 /* Loss torques; those of the same name in gm_terms. */
 typedef struct losses {
@@ -211,7 +211,7 @@ static void change_holding(const gm_drive *d, const gm_solution *s,
 {
     gm_solution loose = *s;
     gm_real share, d_applied = by->output_tau;
-    loose.sign[GM_OUT] = gm_holding(d, s, &loose.terms, &share);
+    loose.sign[GM_OUT] = (gm_real)gm_holding(d, s, &loose.terms, &share);
     loose.held[GM_OUT] = 0;
     const losses t = values_of(&loose.terms);
     const change at = follow(d, &loose, 1, by);

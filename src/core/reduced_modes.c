@@ -7,9 +7,9 @@
 #include "gm_reduced_modes.h"
 #include "reduced_parts.h"
 
-#define GM_NOMINAL_SPEED 100.0       /* rad/s */
-#define GM_NOMINAL_PATH_TORQUE 100.0 /* N.m */
-#define GM_NOMINAL_OUT_TORQUE 1000.0 /* N.m */
+#define GM_NOMINAL_SPEED GM_NUM(100.0)       /* rad/s */
+#define GM_NOMINAL_PATH_TORQUE GM_NUM(100.0) /* N.m */
+#define GM_NOMINAL_OUT_TORQUE GM_NUM(1000.0) /* N.m */
 
 static int sign_of(gm_real x)
 {
@@ -37,7 +37,7 @@ static void make_drive(const gm_reduced_map *map, const gm_reduced_params *param
     gm_set_span(in, 0, 0, d);
     for (int p = 0; p < map->n_paths; p++) {
         if (s->path[p].mode == GM_PATH_SYNCHRONISING) {
-            d->cone[p] = gm_cone_torque(params, p, modes->slip[p]);
+            d->cone[p] = gm_cone_torque(params, p, (gm_real)modes->slip[p]);
         }
     }
 }
@@ -132,10 +132,11 @@ int gm_reduced_modes_indicators(const gm_reduced_map *map,
     gm_solve_at(map, params, inputs, modes, state, &d, &solution);
     for (int p = 0; p < n; p++) {
         z[p] = shaft_indicator(&d, &solution, p);
-        z[n + p] = s.path[p].mode == GM_PATH_SYNCHRONISING
-                       ? modes->slip[p] * slip_of(map, &s, p) / GM_NOMINAL_SPEED +
-                             GM_INDICATOR_MARGIN
-                       : 1;
+        z[n + p] =
+            s.path[p].mode == GM_PATH_SYNCHRONISING
+                ? (gm_real)modes->slip[p] * slip_of(map, &s, p) / GM_NOMINAL_SPEED +
+                      GM_INDICATOR_MARGIN
+                : 1;
         sum += z[p] + z[n + p];
     }
     z[2 * n] = shaft_indicator(&d, &solution, GM_OUT);
@@ -153,12 +154,12 @@ int gm_reduced_modes_indicators(const gm_reduced_map *map,
 static void rest(const gm_reduced_map *map, const gm_reduced_params *params,
                  const gm_reduced_modes *modes, gm_motion *s)
 {
-    if (modes->direction[GM_OUT] * s->w_o < 0) {
+    if ((gm_real)modes->direction[GM_OUT] * s->w_o < 0) {
         gm_bring_to_rest(map, params, GM_OUT, s);
     }
     for (int p = 0; p < map->n_paths; p++) {
         if (gm_has_own_speed(map, params, s, p) &&
-            modes->direction[p] * s->path[p].w < 0) {
+            (gm_real)modes->direction[p] * s->path[p].w < 0) {
             gm_bring_to_rest(map, params, p, s);
         }
     }
@@ -190,7 +191,7 @@ static void close_cones(const gm_reduced_map *map, const gm_reduced_params *para
         if (s->path[p].mode == GM_PATH_SYNCHRONISING) {
             const gm_real slip = slip_of(map, s, p);
             closes[p] = params->sync_torque[p] >= GM_SYNC_AT_ONCE || slip == 0 ||
-                        modes->slip[p] * slip < 0;
+                        (gm_real)modes->slip[p] * slip < 0;
         }
     }
     for (int p = 0; p < map->n_paths; p++) {

@@ -18,7 +18,7 @@ enum { GM_PARTS = 2 };
 enum { GM_OUT = GM_MAX_PATHS, GM_SHAFTS = GM_MAX_PATHS + 1 };
 
 /* From here on a cone capacity counts as infinite: engagement at once. */
-#define GM_SYNC_AT_ONCE 1e30
+#define GM_SYNC_AT_ONCE GM_NUM(1e30)
 
 /* The state without its caches: what a step computes and then commits or drops. */
 typedef struct gm_motion {
@@ -154,8 +154,9 @@ static inline int gm_direction(gm_real sign)
 
 /* Relative size of the bilinear remainder cxy du dv that a step may leave out. It is of
  * second order in the step, like the method; the bound matters for large steps only. */
-#define GM_REMAINDER 1e-4
-#define GM_REMAINDER_NM 1e-9 /* N.m, where the torque itself passes through zero */
+#define GM_REMAINDER GM_NUM(1e-4)
+#define GM_REMAINDER_NM                                                                  \
+    GM_BY_TYPE(1e-9, 1e-5) /* N.m, where the torque itself passes through zero */
 
 /** Whether to lies in the same cell low .. high, or beyond the same edge, as from. */
 static inline int gm_stays(gm_real low, gm_real high, gm_real from, gm_real to)
@@ -174,7 +175,7 @@ static inline int gm_is_small(gm_real rest, gm_real value)
 
 /* The same of a monotone cell, which is curved everywhere: so small that one more pass,
  * from the solution of the last, brings it about. */
-#define GM_CURVED_REMAINDER 1e-8
+#define GM_CURVED_REMAINDER GM_BY_TYPE(1e-8, 1e-6)
 
 /** gm_stays for a cell; in a monotone one the tangent must be near enough too. value:
  *  what the pass made of this table. */
@@ -221,7 +222,7 @@ void gm_make_drive(const gm_reduced_map *map, const gm_reduced_params *params,
  *  so many parts: (omega h / parts)^2 <= 4. */
 static inline int gm_is_followed(const gm_drive *d, gm_real h, int parts)
 {
-    return d->stiff * h * h <= 4 * parts * parts;
+    return d->stiff * h * h <= (gm_real)(4 * parts * parts);
 }
 
 /** Mean flange torques over h seconds that begin t seconds into the step. */

@@ -29,7 +29,7 @@
 
 enum { GM_PASSES = 60, GM_FREE_PASSES = 3, GM_ROUNDS = 2 * GM_SHAFTS + 1 };
 
-#define GM_FAR 1e300 /* bracket that excludes nothing */
+#define GM_FAR GM_BY_TYPE(1e300, 1e38) /* bracket that excludes nothing */
 
 /* ---- the passes ---- */
 

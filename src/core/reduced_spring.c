@@ -52,7 +52,7 @@ static gm_real mean_force(const flank *f, gm_real k, gm_real *slope)
 }
 
 /* Share of the contact's damping that is left in the middle of the gap. */
-#define FILM_IN_GAP 0.05
+#define FILM_IN_GAP GM_NUM(0.05)
 
 /* q(u) and its derivative. */
 static gm_real film_share(const gm_gear *gear, gm_real u, gm_real *slope)
@@ -138,8 +138,8 @@ gm_real gm_spring_energy(const gm_gear *gear, gm_real twist)
 
 enum { GM_MEETINGS = 24, GM_LINE_TRIALS = 12 };
 
-#define CLOSE 1e-11    /* relative, of a spring's torque */
-#define CLOSE_NM 1e-10 /* N.m */
+#define CLOSE GM_BY_TYPE(1e-11, 4e-6)    /* relative, of a spring's torque */
+#define CLOSE_NM GM_BY_TYPE(1e-10, 1e-4) /* N.m */
 
 typedef struct meeting {
     gm_real slip[GM_MAX_PATHS], used[GM_MAX_PATHS]; /* slips, the torques behind them */

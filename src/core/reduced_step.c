@@ -22,10 +22,11 @@
 enum { GM_LOCATE = 16 }; /* solutions to locate one event */
 
 /* Changes of a spring's torque, relative and in N.m, that need not be followed. */
-#define CALM 0.02
-#define CALM_NM 0.2
+#define CALM GM_NUM(0.02)
+#define CALM_NM GM_NUM(0.2)
 
-#define GM_EVENT_TOLERANCE 1e-10 /* of the speed at the start of the sub-step */
+/* Of the speed at the start of the sub-step. */
+#define GM_EVENT_TOLERANCE GM_BY_TYPE(1e-10, 1e-5)
 
 /* Events: shafts 0, 1, GM_OUT come to rest, then synchronisers 0, 1 close. */
 enum { GM_CLOSES = GM_SHAFTS, GM_EVENTS = GM_SHAFTS + GM_MAX_PATHS };
@@ -295,10 +296,11 @@ static gm_real part_of(const gm_drive *d, const gm_span *span)
     while (parts < GM_PARTS && !gm_is_followed(d, span->step, parts)) {
         parts++;
     }
-    while (left < parts && span->rest * parts > 1.001 * span->step * left) {
+    while (left < parts &&
+           span->rest * (gm_real)parts > GM_NUM(1.001) * span->step * (gm_real)left) {
         left++;
     }
-    return span->rest / left;
+    return span->rest / (gm_real)left;
 }
 
 /* Whether a spring's torque stays nearly what it is: there is no vibration that would be

@@ -1,0 +1,11 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * How the core keeps its numbers. Libraries and FMUs compute in double; in the folder of
+ * plain C for a controller this is the one file of the core that the generator writes.
+ */
+#ifndef GM_CONFIG_H
+#define GM_CONFIG_H
+
+#define GM_REAL_IS_FLOAT 0 /* 1: float instead of double */
+
+#endif
