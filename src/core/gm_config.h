@@ -6,6 +6,8 @@
 #ifndef GM_CONFIG_H
 #define GM_CONFIG_H
 
-#define GM_REAL_IS_FLOAT 0 /* 1: float instead of double */
+#define GM_REAL_IS_FLOAT 0   /* 1: float instead of double */
+#define GM_NODES_ARE_INT16 0 /* 1: tables hold int16_t and a scale */
+#define GM_CURVED 1          /* 0: no table is monotone, all are linear */
 
 #endif

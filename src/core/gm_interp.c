@@ -50,20 +50,19 @@ gm_place gm_place_on(const gm_axis *axis, gm_real q)
 
 gm_value1 gm_cell1_refill(const gm_table1 *t, int table, gm_cell1 *c, gm_real x)
 {
-    if (t->monotone) {
+    if (GM_CURVED && t->monotone) {
         return gm_monotone1(t, table, c, x);
     }
     const gm_place p = gm_place_on(&t->x, x);
-    const gm_real *f = t->value + p.i;
-    const int step = t->x.n > 1;
+    const gm_real near = GM_NODE(t, p.i), far = GM_NODE(t, p.i + (t->x.n > 1));
     c->table = table;
     c->x_low = p.low;
     c->x_high = p.high;
-    c->c0 = f[0];
-    c->cx = (f[step] - f[0]) * p.slope;
+    c->c0 = near;
+    c->cx = (far - near) * p.slope;
     gm_value1 v = gm_cell1_inside(c, p.q);
     if (p.far) {
-        v.value = f[step];
+        v.value = far;
     }
     if (p.outside) {
         v.dx = 0;
@@ -89,14 +88,15 @@ static gm_real far_edge(const gm_cell2 *c, const gm_place *x, const gm_place *y,
 gm_value2 gm_cell2_refill(const gm_table2 *t, int table, gm_cell2 *c, gm_real x,
                           gm_real y)
 {
-    if (t->monotone) {
+    if (GM_CURVED && t->monotone) {
         return gm_monotone2(t, table, c, x, y);
     }
     const gm_place px = gm_place_on(&t->x, x), py = gm_place_on(&t->y, y);
     const ptrdiff_t row = t->y.n, next = t->x.n > 1 ? row : 0, step = row > 1;
-    const gm_real *corner = t->value + px.i * row + py.i;
-    const gm_real f[2][2] = {{corner[0], corner[step]},
-                             {corner[next], corner[next + step]}};
+    const ptrdiff_t corner = px.i * row + py.i;
+    const gm_real f[2][2] = {
+        {GM_NODE(t, corner), GM_NODE(t, corner + step)},
+        {GM_NODE(t, corner + next), GM_NODE(t, corner + next + step)}};
     c->table = table;
     c->x_low = px.low;
     c->x_high = px.high;
@@ -135,12 +135,12 @@ static gm_real between(const gm_place *p, gm_real near, gm_real far, gm_real *sl
 }
 
 /* One layer z: the bilinear surface of x and y, d[] its derivatives. */
-static gm_real layer(const gm_place *x, const gm_place *y, const gm_real *corner,
-                     ptrdiff_t next_x, ptrdiff_t next_y, gm_real d[2])
+static gm_real layer(const gm_place *x, const gm_place *y, gm_real f[2][2][2], int z,
+                     gm_real d[2])
 {
     gm_real y_near, y_far, unused;
-    const gm_real near = between(y, corner[0], corner[next_y], &y_near);
-    const gm_real far = between(y, corner[next_x], corner[next_x + next_y], &y_far);
+    const gm_real near = between(y, f[0][0][z], f[0][1][z], &y_near);
+    const gm_real far = between(y, f[1][0][z], f[1][1][z], &y_far);
     const gm_real value = between(x, near, far, &d[0]);
     d[1] = between(x, y_near, y_far, &unused);
     return value;
@@ -148,12 +148,11 @@ static gm_real layer(const gm_place *x, const gm_place *y, const gm_real *corner
 
 /* Value and gradient by nested interpolation: for far corners, where the value must be
  * the node's own. */
-static gm_value3 at_far_corner(const gm_place p[3], const gm_real *corner,
-                               ptrdiff_t next_x, ptrdiff_t next_y, ptrdiff_t next_z)
+static gm_value3 at_far_corner(const gm_place p[3], gm_real f[2][2][2])
 {
     gm_real near[2], far[2], unused;
-    const gm_real low = layer(&p[0], &p[1], corner, next_x, next_y, near);
-    const gm_real high = layer(&p[0], &p[1], corner + next_z, next_x, next_y, far);
+    const gm_real low = layer(&p[0], &p[1], f, 0, near);
+    const gm_real high = layer(&p[0], &p[1], f, 1, far);
     gm_value3 v;
     v.value = between(&p[2], low, high, &v.dz);
     v.dx = between(&p[2], near[0], far[0], &unused);
@@ -163,12 +162,10 @@ static gm_value3 at_far_corner(const gm_place p[3], const gm_real *corner,
 }
 
 /* Corner values to coefficients: differences along one axis after the other. */
-static void fill_cell3(const gm_place p[3], const gm_real *f, ptrdiff_t next_x,
-                       ptrdiff_t next_y, ptrdiff_t next_z, gm_cell3 *c)
+static void fill_cell3(const gm_place p[3], gm_real f[2][2][2], gm_cell3 *c)
 {
     for (int i = 0; i < 8; i++) {
-        c->c[i >> 2][i >> 1 & 1][i & 1] =
-            f[(i >> 2) * next_x + (i >> 1 & 1) * next_y + (i & 1) * next_z];
+        c->c[i >> 2][i >> 1 & 1][i & 1] = f[i >> 2][i >> 1 & 1][i & 1];
     }
     for (int i = 0; i < 4; i++) {
         const int a = i >> 1, b = i & 1;
@@ -190,9 +187,14 @@ gm_value3 gm_cell3_refill(const gm_table3 *t, int table, gm_cell3 *c, gm_real x,
     const gm_place p[3] = {gm_place_on(&t->x, x), gm_place_on(&t->y, y),
                            gm_place_on(&t->z, z)};
     const ptrdiff_t n_y = t->y.n, n_z = t->z.n;
-    const gm_real *corner = t->value + (p[0].i * n_y + p[1].i) * n_z + p[2].i;
+    const ptrdiff_t corner = (p[0].i * n_y + p[1].i) * n_z + p[2].i;
     const ptrdiff_t next_x = t->x.n > 1 ? n_y * n_z : 0, next_y = n_y > 1 ? n_z : 0;
     const ptrdiff_t next_z = n_z > 1;
+    gm_real f[2][2][2];
+    for (int i = 0; i < 8; i++) {
+        f[i >> 2][i >> 1 & 1][i & 1] = GM_NODE(
+            t, corner + (i >> 2) * next_x + (i >> 1 & 1) * next_y + (i & 1) * next_z);
+    }
     c->table = table;
     c->x_low = p[0].low;
     c->x_high = p[0].high;
@@ -200,9 +202,9 @@ gm_value3 gm_cell3_refill(const gm_table3 *t, int table, gm_cell3 *c, gm_real x,
     c->y_high = p[1].high;
     c->z_low = p[2].low;
     c->z_high = p[2].high;
-    fill_cell3(p, corner, next_x, next_y, next_z, c);
+    fill_cell3(p, f, c);
     gm_value3 v = p[0].far || p[1].far || p[2].far
-                      ? at_far_corner(p, corner, next_x, next_y, next_z)
+                      ? at_far_corner(p, f)
                       : gm_cell3_inside(c, p[0].q, p[1].q, p[2].q);
     v.dx = p[0].outside ? 0 : v.dx;
     v.dy = p[1].outside ? 0 : v.dy;

@@ -19,6 +19,8 @@
 
 #include "gm_real.h"
 
+#include <stdint.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -28,21 +30,35 @@ typedef struct gm_axis {
     const gm_real *x; /* [n], strictly increasing */
 } gm_axis;
 
+/* How tables keep the values of their nodes: as they are, or scale times an integer. */
+#if GM_NODES_ARE_INT16
+typedef int16_t gm_node;
+#define GM_NODE_SCALE gm_real scale; /* of one unit of value */
+#define GM_NODE(table, i) ((table)->scale * (gm_real)(table)->value[i])
+#else
+typedef gm_real gm_node;
+#define GM_NODE_SCALE
+#define GM_NODE(table, i) ((table)->value[i])
+#endif
+
 typedef struct gm_table1 {
     gm_axis x;
-    const gm_real *value; /* [n_x] */
-    int monotone;         /* 0: linear, 1: monotone cubic */
+    const gm_node *value; /* [n_x], read with GM_NODE */
+    GM_NODE_SCALE
+    int monotone; /* 0: linear, 1: monotone cubic */
 } gm_table1;
 
 typedef struct gm_table2 {
     gm_axis x, y;
-    const gm_real *value; /* [n_x][n_y], row-major */
-    int monotone;         /* 0: bilinear, 1: monotone bicubic */
+    const gm_node *value; /* [n_x][n_y], row-major */
+    GM_NODE_SCALE
+    int monotone; /* 0: bilinear, 1: monotone bicubic */
 } gm_table2;
 
 typedef struct gm_table3 {
     gm_axis x, y, z;
-    const gm_real *value; /* [n_x][n_y][n_z], row-major */
+    const gm_node *value; /* [n_x][n_y][n_z], row-major */
+    GM_NODE_SCALE
 } gm_table3;
 
 /* Cells hold no pointer: a saved state stays valid in another process. A cell is filled

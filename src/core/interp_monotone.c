@@ -48,44 +48,80 @@ static gm_real limited(gm_real m, gm_real sign, gm_real limit)
     return m > limit ? limit : m < -limit ? -limit : m;
 }
 
-/* A line of values in a table: node k is f[k * next]. */
+/* A node with its neighbours along a line of a table: up to three nodes of which it is
+ * number i, at an end the last three. */
 typedef struct line {
-    const gm_axis *axis;
-    const gm_real *f;
-    ptrdiff_t next;
+    int n, i, first; /* first: number in the whole line of what is number 0 here */
+    gm_real x[3], f[3];
 } line;
+
+/* The node i of an axis and its neighbours, still without values. */
+static line line_on(const gm_axis *axis, int i)
+{
+    const int n = axis->n < 3 ? axis->n : 3, most = axis->n - n;
+    const int first = i - 1 < 0 ? 0 : i - 1 > most ? most : i - 1;
+    line l = {n, i - first, first, {0, 0, 0}, {0, 0, 0}};
+    for (int k = 0; k < n; k++) {
+        l.x[k] = axis->x[first + k];
+    }
+    return l;
+}
 
 static gm_real secant(const line *l, int i)
 {
-    return (l->f[(i + 1) * l->next] - l->f[i * l->next]) /
-           (l->axis->x[i + 1] - l->axis->x[i]);
+    return (l->f[i + 1] - l->f[i]) / (l->x[i + 1] - l->x[i]);
 }
 
-/* Derivative at node i of the parabola through it and its neighbours, at an end through
- * the three last nodes. */
-static gm_real parabola(const line *l, int i)
+/* Derivative at the node of the parabola through it and its neighbours, at an end
+ * through the three last nodes. */
+static gm_real parabola(const line *l)
 {
-    const gm_real *x = l->axis->x;
-    const int n = l->axis->n;
-    if (n < 3) {
-        return n < 2 ? 0 : secant(l, 0);
+    const gm_real *x = l->x;
+    if (l->n < 3) {
+        return l->n < 2 ? 0 : secant(l, 0);
     }
-    const int k = i == 0 ? 1 : i == n - 1 ? n - 2 : i; /* the middle of the three */
-    const gm_real h_0 = x[k] - x[k - 1], h_1 = x[k + 1] - x[k];
-    const gm_real a = secant(l, k - 1), b = secant(l, k), bend = (b - a) / (h_0 + h_1);
-    return a + bend * (i < k ? -h_0 : i > k ? h_0 + 2 * h_1 : h_0);
+    const gm_real h_0 = x[1] - x[0], h_1 = x[2] - x[1];
+    const gm_real a = secant(l, 0), b = secant(l, 1), bend = (b - a) / (h_0 + h_1);
+    return a + bend * (l->i < 1 ? -h_0 : l->i > 1 ? h_0 + 2 * h_1 : h_0);
 }
 
-static gm_real slope(const line *l, int i, gm_real factor)
+static gm_real slope(const line *l, gm_real factor)
 {
-    const int n = l->axis->n;
-    const gm_real m = parabola(l, i);
-    if (n < 3) {
+    const gm_real m = parabola(l);
+    if (l->n < 3) {
         return m;
     }
-    const gm_real a = secant(l, i > 0 ? i - 1 : 0), b = secant(l, i < n - 1 ? i : n - 2);
+    const gm_real a = secant(l, l->i > 1), b = secant(l, l->i > 0);
     const gm_real limit = factor * smaller(magnitude(a), magnitude(b));
     return (a > 0) == (b > 0) && (a < 0) == (b < 0) ? limited(m, a, limit) : 0;
+}
+
+static gm_real slope_1(const gm_table1 *t, int i)
+{
+    line l = line_on(&t->x, i);
+    for (int k = 0; k < l.n; k++) {
+        l.f[k] = GM_NODE(t, l.first + k);
+    }
+    return slope(&l, LIMIT_1);
+}
+
+/* The lines of a table in two dimensions through node (i, j). */
+static line along_x(const gm_table2 *t, int i, int j)
+{
+    line l = line_on(&t->x, i);
+    for (int k = 0; k < l.n; k++) {
+        l.f[k] = GM_NODE(t, (ptrdiff_t)(l.first + k) * t->y.n + j);
+    }
+    return l;
+}
+
+static line along_y(const gm_table2 *t, int i, int j)
+{
+    line l = line_on(&t->y, j);
+    for (int k = 0; k < l.n; k++) {
+        l.f[k] = GM_NODE(t, (ptrdiff_t)i * t->y.n + l.first + k);
+    }
+    return l;
 }
 
 /* ---- one dimension ---- */
@@ -115,12 +151,12 @@ static gm_real slope_at(const gm_real c[4], gm_real u)
 gm_value1 gm_monotone1(const gm_table1 *t, int table, gm_cell1 *cell, gm_real x)
 {
     const gm_place p = gm_place_on(&t->x, x);
-    const line l = {&t->x, t->value, 1};
     const int next = t->x.n > 1;
-    const gm_real m_0 = slope(&l, p.i, LIMIT_1), m_1 = slope(&l, p.i + next, LIMIT_1);
+    const gm_real m_0 = slope_1(t, p.i), m_1 = slope_1(t, p.i + next);
+    const gm_real near = GM_NODE(t, p.i), far = GM_NODE(t, p.i + next);
     const gm_real width = next ? p.high - p.low : 0;
     gm_real c[4];
-    cubic(t->value[p.i], t->value[p.i + next], m_0, m_1, p.slope, c);
+    cubic(near, far, m_0, m_1, p.slope, c);
     const gm_real bend_0 = 2 * magnitude(c[2]);
     const gm_real bend_1 = magnitude(2 * c[2] + 6 * c[3] * width);
     cell->table = -table;
@@ -128,7 +164,7 @@ gm_value1 gm_monotone1(const gm_table1 *t, int table, gm_cell1 *cell, gm_real x)
     cell->x_high = p.high;
     cell->c0 = p.outside ? 0 : bend_0 > bend_1 ? bend_0 : bend_1;
     gm_value1 v;
-    v.value = p.far ? t->value[p.i + next] : at(c, p.q - p.low);
+    v.value = p.far ? far : at(c, p.q - p.low);
     v.dx = p.outside ? 0 : p.far ? m_1 : slope_at(c, p.q - p.low);
     v.outside = p.outside;
     return v;
@@ -149,8 +185,8 @@ static void narrow(const gm_table2 *t, int i, int j, int a, int b, const corner 
 {
     const ptrdiff_t row = t->y.n, at = i * row + j;
     const gm_real h_x = t->x.x[i + a] - t->x.x[i], h_y = t->y.x[j + b] - t->y.x[j];
-    const gm_real f[3] = {t->value[at + a * row], t->value[at + b],
-                          t->value[at + a * row + b]};
+    const gm_real f[3] = {GM_NODE(t, at + a * row), GM_NODE(t, at + b),
+                          GM_NODE(t, at + a * row + b)};
     const gm_real start = c->f + (h_x * c->x + h_y * c->y) / 3;
     gm_real least = c->f, most = c->f;
     for (int k = 0; k < 3; k++) {
@@ -171,20 +207,16 @@ static void narrow(const gm_table2 *t, int i, int j, int a, int b, const corner 
 static gm_real twist(const gm_table2 *t, int i, int j, const corner *c)
 {
     const int n_x = t->x.n, n_y = t->y.n;
-    gm_real along[3] = {0, 0, 0}; /* d/dy at the three nodes of the parabola in x */
     gm_real low = -GM_UNBOUNDED, high = GM_UNBOUNDED;
     if (n_x < 2 || n_y < 2) {
         return 0;
     }
-    const int n = n_x < 3 ? 2 : 3, most = n_x - n;
-    const int first = i - 1 < 0 ? 0 : i - 1 > most ? most : i - 1;
-    for (int k = 0; k < n; k++) {
-        const line l = {&t->y, t->value + (ptrdiff_t)(first + k) * n_y, 1};
-        along[k] = parabola(&l, j);
+    line slopes = line_on(&t->x, i); /* d/dy at the nodes of the parabola in x */
+    for (int k = 0; k < slopes.n; k++) {
+        const line l = along_y(t, slopes.first + k, j);
+        slopes.f[k] = parabola(&l);
     }
-    const gm_axis part = {n, t->x.x + first};
-    const line l = {&part, along, 1};
-    const gm_real raw = parabola(&l, i - first);
+    const gm_real raw = parabola(&slopes);
     for (int k = 0; k < 4; k++) {
         const int a = k & 1 ? 1 : -1, b = k & 2 ? 1 : -1;
         if (i + a >= 0 && i + a < n_x && j + b >= 0 && j + b < n_y) {
@@ -198,11 +230,9 @@ static gm_real twist(const gm_table2 *t, int i, int j, const corner *c)
 
 static corner corner_at(const gm_table2 *t, int i, int j)
 {
-    const ptrdiff_t row = t->y.n;
-    const line along_x = {&t->x, t->value + j, row},
-               along_y = {&t->y, t->value + i * row, 1};
-    corner c = {t->value[i * row + j], slope(&along_x, i, LIMIT_2),
-                slope(&along_y, j, LIMIT_2), 0};
+    const line x = along_x(t, i, j), y = along_y(t, i, j);
+    corner c = {GM_NODE(t, (ptrdiff_t)i * t->y.n + j), slope(&x, LIMIT_2),
+                slope(&y, LIMIT_2), 0};
     c.xy = twist(t, i, j, &c);
     return c;
 }
