@@ -7,31 +7,21 @@
 
 #include "base/alloc.h"
 #include "base/csv.h"
+#include "common/test_file.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 static const char *const known[] = {"time_s", "speed_km_h", "gear"};
 enum { N_KNOWN = 3 };
-
-static char path[] = "/tmp/gm_csv_XXXXXX";
-
-static void write_file(const char *text)
-{
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_true(fputs(text, file) >= 0);
-    assert_int_equal(fclose(file), 0);
-}
 
 /* Reads to the end; the first failure. *sum: of all numbers. */
 static gm_status read_all(double *sum, gm_error *error)
 {
     gm_csv *csv = NULL;
     bool more = true;
-    gm_status status = gm_csv_open(path, &csv, error);
+    gm_status status = gm_csv_open(test_file_path(), &csv, error);
     if (status == GM_OK)
         status = gm_csv_read_header(csv, known, N_KNOWN, "time_s and speed_km_h", error);
     *sum = 0.0;
@@ -51,10 +41,10 @@ static void refused(const char *text, const char *sentence)
 {
     gm_error error;
     double sum;
-    write_file(text);
+    test_file_write(text);
     assert_int_equal(read_all(&sum, &error), GM_ERR_FORMAT);
-    assert_memory_equal(error.message, path, strlen(path));
-    assert_string_equal(error.message + strlen(path), sentence);
+    assert_memory_equal(error.message, test_file_path(), strlen(test_file_path()));
+    assert_string_equal(error.message + strlen(test_file_path()), sentence);
 }
 
 static void reads_what_spreadsheets_write(void **state)
@@ -62,8 +52,8 @@ static void reads_what_spreadsheets_write(void **state)
     (void)state;
     gm_error error;
     double sum;
-    write_file("\xEF\xBB\xBF# a comment\r\n\r\n gear ,\tspeed_km_h\r\n 1 , 2.5\r\n"
-               "# more\n 3,4e1 ");
+    test_file_write("\xEF\xBB\xBF# a comment\r\n\r\n gear ,\tspeed_km_h\r\n 1 , 2.5\r\n"
+                    "# more\n 3,4e1 ");
     assert_int_equal(read_all(&sum, &error), GM_OK);
     assert_true(sum == 46.5);
 }
@@ -74,8 +64,8 @@ static void columns_are_found_by_name(void **state)
     gm_csv *csv = NULL;
     gm_error error;
     bool more;
-    write_file("gear,time_s\n7,8\n");
-    assert_int_equal(gm_csv_open(path, &csv, &error), GM_OK);
+    test_file_write("gear,time_s\n7,8\n");
+    assert_int_equal(gm_csv_open(test_file_path(), &csv, &error), GM_OK);
     assert_int_equal(gm_csv_read_header(csv, known, N_KNOWN, "", &error), GM_OK);
     assert_true(gm_csv_has(csv, 0) && !gm_csv_has(csv, 1) && gm_csv_has(csv, 2));
     assert_int_equal(gm_csv_n_columns(csv), 2);
@@ -131,25 +121,12 @@ static void failures_are_told(void **state)
     gm_csv *csv = NULL;
     gm_error error;
     assert_int_equal(gm_csv_open("/nonexistent/x.csv", &csv, &error), GM_ERR_IO);
-    write_file("time_s\n");
+    test_file_write("time_s\n");
     gm_alloc_fail_after(1);
-    assert_int_equal(gm_csv_open(path, &csv, &error), GM_ERR_MEMORY);
+    assert_int_equal(gm_csv_open(test_file_path(), &csv, &error), GM_ERR_MEMORY);
     gm_alloc_fail_after(0);
     assert_null(csv);
     gm_csv_close(NULL);
-}
-
-static int make_file(void **state)
-{
-    (void)state;
-    int file = mkstemp(path);
-    return file < 0 || close(file);
-}
-
-static int remove_file(void **state)
-{
-    (void)state;
-    return unlink(path);
 }
 
 int main(void)
@@ -162,5 +139,5 @@ int main(void)
         cmocka_unit_test(cells_are_shown_in_part),
         cmocka_unit_test(failures_are_told),
     };
-    return cmocka_run_group_tests(tests, make_file, remove_file);
+    return cmocka_run_group_tests(tests, test_file_make, test_file_remove);
 }

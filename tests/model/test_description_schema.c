@@ -5,6 +5,8 @@
 #include "model/gm_description.h"
 #include "model/schema.h"
 
+#include "common/schema_page.h"
+
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,44 +19,11 @@
 #include <cmocka.h>
 
 #define DOCS GM_SOURCE_DIR "/docs/description.md"
-#define BEGIN "<!-- from the schema: begin -->\n"
-#define FINISH "<!-- from the schema: end -->\n"
 
-typedef struct buffer {
-    char text[1 << 16];
-    size_t n;
-} buffer;
-
-static void collect(void *context, const char *text)
-{
-    buffer *b = context;
-    size_t n = strlen(text);
-    assert_true(b->n + n < sizeof b->text);
-    memcpy(b->text + b->n, text, n + 1);
-    b->n += n;
-}
-
-/* To renew the page: copy what this test writes beside the build between the marks. */
 static void docs_have_the_schema(void **state)
 {
     (void)state;
-    static buffer help;
-    static char docs[1 << 17];
-    gm_description_help(collect, &help);
-    FILE *out = fopen(GM_BINARY_DIR "/description_fields.md", "wb");
-    assert_non_null(out);
-    assert_int_equal(fwrite(help.text, 1, help.n, out), help.n);
-    assert_int_equal(fclose(out), 0);
-    FILE *f = fopen(DOCS, "rb");
-    assert_non_null(f);
-    size_t n = fread(docs, 1, sizeof docs - 1, f);
-    docs[n] = '\0';
-    assert_int_equal(fclose(f), 0);
-    char *begin = strstr(docs, BEGIN), *end = strstr(docs, FINISH);
-    assert_non_null(begin);
-    assert_non_null(end);
-    *end = '\0';
-    assert_string_equal(begin + strlen(BEGIN), help.text);
+    schema_page_check(gm_description_help, DOCS, "description_fields.md");
 }
 
 static int count_fields(const gm_section *section)

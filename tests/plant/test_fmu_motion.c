@@ -89,7 +89,8 @@ static void rates(rig *r, const double *x, double *dx)
     assert_int_equal(r->dynamics.is->rates(r->motion, &r->input, x, dx), 0);
 }
 
-/* Central differences inside a table's cell: curvature over h, rounding of rates of 1e4. */
+/* Central differences inside a cell of a table: curvature over h, rounding of rates of
+ * 1e4. */
 static void check_column(const double *exact, const double *up, const double *down,
                          double h, int n)
 {

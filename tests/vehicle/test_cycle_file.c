@@ -6,30 +6,20 @@
 #include <cmocka.h>
 
 #include "base/alloc.h"
+#include "common/test_file.h"
 #include "vehicle/gm_cycle.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
-
-static char path[] = "/tmp/gm_cycle_XXXXXX";
-
-static void write_file(const char *text)
-{
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_true(fputs(text, file) >= 0);
-    assert_int_equal(fclose(file), 0);
-}
 
 static gm_cycle *read_cycle(const char *text)
 {
     gm_cycle *cycle = NULL;
     gm_error error;
-    write_file(text);
-    assert_int_equal(gm_cycle_read(path, &cycle, &error), GM_OK);
+    test_file_write(text);
+    assert_int_equal(gm_cycle_read(test_file_path(), &cycle, &error), GM_OK);
     return cycle;
 }
 
@@ -37,11 +27,11 @@ static void refused(const char *text, const char *sentence)
 {
     gm_cycle *cycle = NULL;
     gm_error error;
-    write_file(text);
-    assert_int_equal(gm_cycle_read(path, &cycle, &error), GM_ERR_FORMAT);
+    test_file_write(text);
+    assert_int_equal(gm_cycle_read(test_file_path(), &cycle, &error), GM_ERR_FORMAT);
     assert_null(cycle);
-    assert_memory_equal(error.message, path, strlen(path));
-    assert_string_equal(error.message + strlen(path), sentence);
+    assert_memory_equal(error.message, test_file_path(), strlen(test_file_path()));
+    assert_string_equal(error.message + strlen(test_file_path()), sentence);
 }
 
 static void speeds_and_gears_are_read(void **state)
@@ -56,7 +46,7 @@ static void speeds_and_gears_are_read(void **state)
     assert_true(c->gears[1].time == 20.0 && c->gears[1].gear == 2);
     assert_true(c->gears[2].time == 21.5 && c->gears[2].gear == 0);
     assert_true(gm_cycle_grade(c, 5.0) == 0.0);
-    assert_non_null(strstr(path, c->name));
+    assert_non_null(strstr(test_file_path(), c->name));
     gm_cycle_destroy(c);
 }
 
@@ -102,28 +92,15 @@ static void no_memory_is_an_error(void **state)
     gm_cycle *c = NULL;
     gm_error error;
     gm_status status = GM_ERR_MEMORY;
-    write_file("time_s,speed_km_h,gear,grade_percent\n0,0,1,0\n9,9,1,1\n");
+    test_file_write("time_s,speed_km_h,gear,grade_percent\n0,0,1,0\n9,9,1,1\n");
     for (int k = 1; status != GM_OK; k++) {
         gm_alloc_fail_after(k);
-        status = gm_cycle_read(path, &c, &error);
+        status = gm_cycle_read(test_file_path(), &c, &error);
         gm_alloc_fail_after(0);
         assert_true(status == GM_OK || (status == GM_ERR_MEMORY && !c));
         assert_true(k < 20);
     }
     gm_cycle_destroy(c);
-}
-
-static int make_file(void **state)
-{
-    (void)state;
-    int file = mkstemp(path);
-    return file < 0 || close(file);
-}
-
-static int remove_file(void **state)
-{
-    (void)state;
-    return unlink(path);
 }
 
 int main(void)
@@ -134,5 +111,5 @@ int main(void)
         cmocka_unit_test(nothing_is_guessed),
         cmocka_unit_test(no_memory_is_an_error),
     };
-    return cmocka_run_group_tests(tests, make_file, remove_file);
+    return cmocka_run_group_tests(tests, test_file_make, test_file_remove);
 }

@@ -10,39 +10,26 @@
 #include <cmocka.h>
 
 #include "base/alloc.h"
+#include "common/schema_page.h"
+#include "common/test_file.h"
 #include "vehicle/gm_vehicle.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #define EXAMPLE GM_SOURCE_DIR "/examples/vehicle_c_segment.yaml"
 #define DOCS GM_SOURCE_DIR "/docs/vehicle.md"
-#define BEGIN "<!-- from the schema: begin -->\n"
-#define FINISH "<!-- from the schema: end -->\n"
-
-static char path[] = "/tmp/gm_vehicle_XXXXXX";
-
-static size_t load(const char *name, char *text, size_t size)
-{
-    FILE *file = fopen(name, "rb");
-    assert_non_null(file);
-    size_t n = fread(text, 1, size - 1, file);
-    text[n] = '\0';
-    assert_int_equal(fclose(file), 0);
-    return n;
-}
 
 /* The example with `what` (which it contains) replaced. */
 static void write_changed(const char *what, const char *by)
 {
     static char text[8192];
-    load(EXAMPLE, text, sizeof text);
+    test_file_load(EXAMPLE, text, sizeof text);
     char *at = strstr(text, what);
     assert_non_null(at);
-    FILE *file = fopen(path, "wb");
+    FILE *file = fopen(test_file_path(), "wb");
     assert_non_null(file);
     assert_true(fprintf(file, "%.*s%s%s", (int)(at - text), text, by, at + strlen(what)) >
                 0);
@@ -80,7 +67,7 @@ static void defaults_are_those_of_the_reference(void **state)
     static char text[8192];
     gm_vehicle reference = gm_vehicle_reference(), car;
     gm_error error;
-    load(EXAMPLE, text, sizeof text);
+    test_file_load(EXAMPLE, text, sizeof text);
     *strstr(text, "driver:") = '\0';
     char *road = strstr(text, "road:"), *next = strstr(text, "driveshafts:");
     memmove(road, next, strlen(next) + 1);
@@ -90,11 +77,8 @@ static void defaults_are_those_of_the_reference(void **state)
         char *at = strstr(text, *key), *end = strchr(at, '\n');
         memmove(at, end, strlen(end) + 1);
     }
-    FILE *file = fopen(path, "wb");
-    assert_non_null(file);
-    assert_true(fputs(text, file) >= 0);
-    assert_int_equal(fclose(file), 0);
-    assert_int_equal(gm_vehicle_read(path, &car, &error), GM_OK);
+    test_file_write(text);
+    assert_int_equal(gm_vehicle_read(test_file_path(), &car, &error), GM_OK);
     same(&reference, &car);
 }
 
@@ -104,14 +88,14 @@ static void options_are_read(void **state)
     gm_vehicle car;
     gm_error error;
     write_changed("# tyres:", "tyres:");
-    assert_int_equal(gm_vehicle_read(path, &car, &error), GM_OK);
+    assert_int_equal(gm_vehicle_read(test_file_path(), &car, &error), GM_OK);
     assert_true(car.tyre_stiffness == 1e5 && car.tyre_force_max == 7000.0);
     assert_true(car.mount_inertia == 0.0);
     write_changed("# mounts:", "mounts:");
-    assert_int_equal(gm_vehicle_read(path, &car, &error), GM_OK);
+    assert_int_equal(gm_vehicle_read(test_file_path(), &car, &error), GM_OK);
     assert_true(car.mount_inertia == 12.0 && car.mount_stiffness == 47000.0);
     write_changed("grade_percent: 0", "grade_percent: -4");
-    assert_int_equal(gm_vehicle_read(path, &car, &error), GM_OK);
+    assert_int_equal(gm_vehicle_read(test_file_path(), &car, &error), GM_OK);
     assert_true(fabs(car.grade + 0.04) < 1e-15);
 }
 
@@ -120,9 +104,9 @@ static void refused(const char *what, const char *by, const char *sentence)
     gm_vehicle car = {.mass = -1.0};
     gm_error error;
     write_changed(what, by);
-    assert_int_equal(gm_vehicle_read(path, &car, &error), GM_ERR_FORMAT);
+    assert_int_equal(gm_vehicle_read(test_file_path(), &car, &error), GM_ERR_FORMAT);
     assert_true(car.mass == -1.0);
-    assert_memory_equal(error.message, path, strlen(path));
+    assert_memory_equal(error.message, test_file_path(), strlen(test_file_path()));
     assert_non_null(strstr(error.message, sentence));
 }
 
@@ -158,50 +142,10 @@ static void a_file_that_is_not_there_is_an_error(void **state)
     assert_true(k > 10);
 }
 
-typedef struct buffer {
-    char text[1 << 14];
-    size_t n;
-} buffer;
-
-static void collect(void *context, const char *text)
-{
-    buffer *b = context;
-    size_t n = strlen(text);
-    assert_true(b->n + n < sizeof b->text);
-    memcpy(b->text + b->n, text, n + 1);
-    b->n += n;
-}
-
-/* To renew the page: copy what this test writes beside the build between the marks. */
 static void docs_have_the_schema(void **state)
 {
     (void)state;
-    static buffer help;
-    static char docs[1 << 15];
-    gm_vehicle_help(collect, &help);
-    FILE *out = fopen(GM_BINARY_DIR "/vehicle_fields.md", "wb");
-    assert_non_null(out);
-    assert_int_equal(fwrite(help.text, 1, help.n, out), help.n);
-    assert_int_equal(fclose(out), 0);
-    load(DOCS, docs, sizeof docs);
-    char *begin = strstr(docs, BEGIN), *end = strstr(docs, FINISH);
-    assert_non_null(begin);
-    assert_non_null(end);
-    *end = '\0';
-    assert_string_equal(begin + strlen(BEGIN), help.text);
-}
-
-static int make_file(void **state)
-{
-    (void)state;
-    int file = mkstemp(path);
-    return file < 0 || close(file);
-}
-
-static int remove_file(void **state)
-{
-    (void)state;
-    return unlink(path);
+    schema_page_check(gm_vehicle_help, DOCS, "vehicle_fields.md");
 }
 
 int main(void)
@@ -214,5 +158,5 @@ int main(void)
         cmocka_unit_test(a_file_that_is_not_there_is_an_error),
         cmocka_unit_test(docs_have_the_schema),
     };
-    return cmocka_run_group_tests(tests, make_file, remove_file);
+    return cmocka_run_group_tests(tests, test_file_make, test_file_remove);
 }
