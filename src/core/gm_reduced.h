@@ -165,35 +165,40 @@ typedef struct gm_path_state {
     int gear;       /* index of the gear engaged or being synchronised; -1 in neutral */
 } gm_path_state;
 
-#define GM_CACHED_LINES                                                                  \
-    8 /* of a path; drag lines beyond are looked up without a cache                      \
-       */
-
-/** c0 + cx u + cy v + cxy u v */
+/** c + cx u + cy v + cxy u v + cyy v^2, u and v from the low ends of a range. */
 typedef struct gm_surface {
-    gm_real c0, cx, cy, cxy;
+    gm_real c, cx, cy, cxy, cyy;
 } gm_surface;
 
-/** N and R of a free path with all its drag lines, in one patch of the (w_n, w_o) plane
- *  that at most one ramp crosses; see reduced_drag.c. */
-typedef struct gm_drag_patch {
-    int key;                            /* 1 + 2 direction of w_n + direction of w_o */
-    int any_above, any_below, any_ramp; /* lines that the patch lies above, below, on */
-    gm_real x_low, x_high, y_low, y_high;
-    gm_real ratio_above, ratio_below; /* the nearest of them */
-    gm_surface drag, reaction;        /* without the line it lies on: */
-    gm_real ratio_ramp, half, half_y; /* its ratio; half its jump about y_low */
-} gm_drag_patch;
+/** A range of one variable and the line there. outside: 1 beyond the table. */
+typedef struct gm_strip {
+    short key, outside;
+    gm_real low, high, c, cx;
+} gm_strip;
 
-/** Interpolation caches: no influence on results. Zeroed memory is an empty cache.
- *  Directions as in the map's tables, but for cells that are shared by all of them. */
+/** A range of two variables and the surfaces there: load loss of an engaged path over
+ *  speed and torque, or drag and reaction of a free one over both speeds. The latter with
+ *  all drag lines; where among them: bits of sides and the ratios that bound the range,
+ *  see reduced_drag.c. */
+typedef struct gm_patch {
+    short key, outside, sides;
+    gm_real x_low, x_high, y_low, y_high;
+    gm_surface a, b;
+    gm_real ratio[4];
+} gm_patch;
+
+/** A range of three variables; c[i][j][k] is the factor of u^i v^j w^k. */
+typedef struct gm_block {
+    short key, outside;
+    gm_real low[3], high[3], c[2][2][2];
+} gm_block;
+
+/** What was read from tables the last time. No influence on results. Zeroed memory is an
+ *  empty cache. */
 typedef struct gm_reduced_cache {
-    gm_cell1 coupling, parasitic[2], pin[GM_MAX_PATHS][2];
-    gm_cell1 line[GM_MAX_PATHS][GM_CACHED_LINES];
-    gm_cell2 load_loss[GM_MAX_PATHS][2];
-    gm_cell2 drag[GM_MAX_PATHS], reaction[GM_MAX_PATHS]; /* of the last quadrant */
-    gm_drag_patch patch[GM_MAX_PATHS][2];                /* by direction of w_n */
-    gm_cell3 both_loaded[2];
+    gm_strip parasitic, coupling, pin[GM_MAX_PATHS];
+    gm_patch path[GM_MAX_PATHS];
+    gm_block both_loaded;
 } gm_reduced_cache;
 
 /** Speed of every independent shaft and the accounts; plain data without pointers. */

@@ -9,10 +9,6 @@
  */
 #include "reduced_parts.h"
 
-/* A pivot below this part of the inertia means that falling gradients or dD/dtau near 1
- * leave no unique solution. */
-#define PIVOT_LIMIT GM_NUM(0.1)
-
 /* The linear system for the changes of the accelerations, a row for each shaft,
  * factorised in place: multipliers below the diagonal, inverse pivots on it. */
 typedef struct matrix {
@@ -63,7 +59,7 @@ static void output_row(const gm_drive *d, const gm_solution *s, matrix *m)
     const gm_real mean = d->mean;
     gm_real slope = t->out_o, inertia = d->inertia_own, *k = m->k[GM_OUT];
     k[0] = k[1] = 0;
-    m->least[GM_OUT] = PIVOT_LIMIT * d->inertia[GM_OUT];
+    m->least[GM_OUT] = GM_PIVOT_LIMIT * d->inertia[GM_OUT];
     for (int p = 0; p < d->n_paths; p++) {
         const gm_path_terms *path = &t->path[p];
         const gm_real r = d->ratio[p];
@@ -88,7 +84,7 @@ static void path_row(const gm_drive *d, const gm_terms *t, int p, matrix *m)
     const gm_real mean = d->mean, c_a = t->coupling_a;
     const gm_path_terms *path = &t->path[p];
     const int other = 1 - p;
-    m->least[p] = PIVOT_LIMIT * d->inertia[p];
+    m->least[p] = GM_PIVOT_LIMIT * d->inertia[p];
     m->k[p][p] = d->inertia[p] + mean * path->drag_n + c_a;
     m->k[p][other] = -c_a;
     m->k[p][GM_OUT] = mean * path->drag_o - (d->own[other] ? 0 : c_a * d->ratio[other]);
@@ -125,7 +121,7 @@ static void substitute(const matrix *m, gm_real x[GM_SHAFTS])
     x[0] = (x[0] - k[0][1] * x[1] - k[0][2] * x[2]) * k[0][0];
 }
 
-static void drop_gradients(gm_terms *t)
+void gm_drop_gradients(gm_terms *t)
 {
     t->out_o = t->coupling_a = 0;
     for (int p = 0; p < GM_MAX_PATHS; p++) {
@@ -151,7 +147,7 @@ static void make_matrix(const gm_drive *d, gm_solution *s, matrix *m)
         if (factorise(m)) {
             return;
         }
-        drop_gradients(&s->terms); /* leaves a diagonal of inertias */
+        gm_drop_gradients(&s->terms); /* leaves a diagonal of inertias */
     }
 }
 
@@ -188,32 +184,10 @@ static void add_springs(const gm_drive *d, gm_solution *s, const matrix *m,
     }
 }
 
-/* The usual case: nothing but the output moves by itself. */
-static int moves_alone(const gm_drive *d, const gm_solution *s)
-{
-    return !s->held[GM_OUT] && !d->own[0] && !d->own[1];
-}
-
-static gm_real change_alone(const gm_drive *d, gm_solution *s, const gm_point *at)
-{
-    matrix m;
-    output_row(d, s, &m);
-    if (m.k[GM_OUT][GM_OUT] > m.least[GM_OUT]) {
-        return gm_output_balance(d, &s->terms, at) / m.k[GM_OUT][GM_OUT];
-    }
-    drop_gradients(&s->terms);
-    return gm_output_balance(d, &s->terms, at) / d->inertia[GM_OUT];
-}
-
 void gm_newton_change(const gm_drive *d, gm_solution *s, const gm_point *at,
                       gm_real *change)
 {
     matrix m;
-    if (moves_alone(d, s)) {
-        change[0] = change[1] = 0;
-        change[GM_OUT] = change_alone(d, s, at);
-        return;
-    }
     make_matrix(d, s, &m);
     change[GM_OUT] = s->held[GM_OUT] ? 0 : gm_output_balance(d, &s->terms, at);
     for (int p = 0; p < GM_MAX_PATHS; p++) {

@@ -7,291 +7,246 @@
  *
  * with sat(x) = x/GM_LINE_WIDTH limited to -1 .. +1, so that R(0, w_o) = 0 is kept.
  *
- * Away from the ramps every sat is +1 or -1 and the sums are bilinear like the tables. A
- * patch holds the coefficients of both sums over the common cell of all the tables, so
- * that idling gears cost nothing while the point stays there; one line may be on its
- * ramp, as a shaft that nothing drives settles next to a line. With more of them, at the
- * edges of the tables and near w_o = 0 the lines are summed one by one, and always over
- * monotone tables, whose sums are not bilinear. Which way is taken depends on the map and
- * the point only, never on what the cache holds.
+ * Where every sat is constant or on its ramp, and within one cell of all the tables, both
+ * sums are polynomials c + cx u + cy v + cxy u v + cyy v^2 of u = |w_n| - x_low and
+ * v = |w_o| - y_low. They are summed up once and serve as long as the point stays there,
+ * so drag lines cost nothing while none is crossed. A patch is bounded by the ends of the
+ * ramps, w_n = r w_o +- GM_LINE_WIDTH: the nearest below and above the point, of either
+ * end.
  */
-#include "cell.h"
 #include "reduced_parts.h"
 
-#include <stddef.h>
+/* Bounds of a patch by ends of ramps: w_n >= r w_o + W, w_n > r w_o - W and
+ * w_n < r w_o + W, w_n <= r w_o - W, as bits of sides and indices of ratio. */
+enum { ABOVE_RAMP, ABOVE_START, BELOW_END, BELOW_RAMP };
 
 /* Where N and R are read. */
 typedef struct place {
-    int i, j;       /* directions of the path, of the output */
-    gm_real x, y;   /* |w_n|, |w_o| */
-    gm_real w, w_o; /* signed */
+    int i, j;               /* directions of the path, of the output */
+    gm_real x, y;           /* |w_n|, |w_o| */
+    gm_real w, w_o;         /* signed */
+    gm_real sign_n, sign_o; /* +1, -1 */
 } place;
 
 static place place_of(int p, gm_real sign_n, gm_real sign_o, const gm_point *at)
 {
-    const place q = {gm_direction(sign_n),
-                     gm_direction(sign_o),
-                     gm_not_below_zero(sign_n * at->m[p]),
-                     gm_not_below_zero(sign_o * at->m[GM_OUT]),
-                     at->m[p],
-                     at->m[GM_OUT]};
+    const gm_real x = gm_not_below_zero(sign_n * at->m[p]);
+    const gm_real y = gm_not_below_zero(sign_o * at->m[GM_OUT]);
+    const place q = {gm_direction(sign_n), gm_direction(sign_o), x,      y,
+                     sign_n * x,           sign_o * y,           sign_n, sign_o};
     return q;
 }
 
-/* Number of the tables of a quadrant: their cells are shared by the four. */
+/* Number of the tables of a quadrant, negative: load losses have the positive ones. */
 static int quadrant(const place *q)
 {
-    return 1 + 2 * q->i + q->j;
+    return -(1 + 2 * q->i + q->j);
 }
 
-static gm_value1 line_jump(const gm_drive *d, int p, int line, const place *q,
-                           gm_cell1 *copy)
+static int has(const gm_patch *c, int bound)
 {
-    const gm_table1 *jump = &d->map->path[p].lines[line].jump[q->j];
-    gm_cell1 local = {0, 0, 0, 0, 0};
-    gm_cell1 *cell = line < GM_CACHED_LINES ? &d->cache->line[p][line] : &local;
-    const gm_value1 v = gm_cell1_at(jump, 1 + q->j, cell, q->y);
-    *copy = *cell;
-    return v;
+    return c->sides >> bound & 1;
 }
 
-/* ---- the patch ---- */
-
-static int on_ramp(gm_real slip)
+static int is_here(const gm_patch *c, const place *q)
 {
-    return slip < GM_LINE_WIDTH && slip > -GM_LINE_WIDTH;
-}
-
-static int in_patch(const gm_drag_patch *c, const place *q)
-{
-    return c->key == quadrant(q) && q->x >= c->x_low && q->x < c->x_high &&
-           q->y >= c->y_low && q->y < c->y_high &&
-           (!c->any_above || q->w - c->ratio_above * q->w_o >= GM_LINE_WIDTH) &&
-           (!c->any_below || q->w - c->ratio_below * q->w_o <= -GM_LINE_WIDTH) &&
-           (!c->any_ramp || on_ramp(q->w - c->ratio_ramp * q->w_o));
-}
-
-/* Note the side of a line; 0: a second line on its ramp. */
-static int sort_line(gm_real r, gm_real sign, const place *q, gm_drag_patch *c)
-{
-    const gm_real slip = q->w - r * q->w_o;
-    if (on_ramp(slip)) {
-        c->ratio_ramp = r;
-        return ++c->any_ramp == 1;
+    const gm_real *r = c->ratio;
+    if (c->key != quadrant(q) || !gm_in_patch(c, q->x, q->y)) {
+        return 0;
     }
-    if (slip > 0 && (!c->any_above || sign * r > sign * c->ratio_above)) {
-        c->any_above = 1;
-        c->ratio_above = r;
+    return (!has(c, ABOVE_RAMP) || q->w - r[ABOVE_RAMP] * q->w_o >= GM_LINE_WIDTH) &&
+           (!has(c, ABOVE_START) || q->w - r[ABOVE_START] * q->w_o > -GM_LINE_WIDTH) &&
+           (!has(c, BELOW_END) || q->w - r[BELOW_END] * q->w_o < GM_LINE_WIDTH) &&
+           (!has(c, BELOW_RAMP) || q->w - r[BELOW_RAMP] * q->w_o <= -GM_LINE_WIDTH);
+}
+
+/* ---- filling a patch ---- */
+
+/* The nearest bound of its kind is kept. Above a bound the steeper line is nearer (for
+ * w_o > 0), below it the flatter one. */
+static void add_bound(int bound, gm_real r, gm_real sign_o, gm_patch *c)
+{
+    const int below = bound == BELOW_END || bound == BELOW_RAMP;
+    const gm_real nearer = sign_o * (below ? c->ratio[bound] - r : r - c->ratio[bound]);
+    if (!has(c, bound) || nearer > 0) {
+        c->sides = (short)(c->sides | 1 << bound);
+        c->ratio[bound] = r;
     }
-    if (slip < 0 && (!c->any_below || sign * r < sign * c->ratio_below)) {
-        c->any_below = 1;
-        c->ratio_below = r;
+}
+
+static void add_bounds(gm_real r, const place *q, gm_patch *c)
+{
+    const gm_real slip = q->w - r * q->w_o, rest = GM_LINE_WIDTH / gm_abs(r);
+    if (slip >= GM_LINE_WIDTH) {
+        add_bound(ABOVE_RAMP, r, q->sign_o, c);
+    } else if (slip <= -GM_LINE_WIDTH) {
+        add_bound(BELOW_RAMP, r, q->sign_o, c);
+    } else {
+        add_bound(ABOVE_START, r, q->sign_o, c);
+        add_bound(BELOW_END, r, q->sign_o, c);
     }
-    return 1;
-}
-
-/* Sides of all lines: the nearest of those the point is above and below of, and the one
- * it is on. 0: no patch here. */
-static int sort_lines(const gm_path *path, const place *q, gm_drag_patch *c)
-{
-    const gm_real sign = q->j == GM_BACKWARD ? -1 : 1;
-    for (int i = 0; i < path->n_lines; i++) {
-        const gm_real r = path->lines[i].ratio, least = GM_LINE_WIDTH / gm_abs(r);
-        c->y_low = least > c->y_low ? least : c->y_low;
-        if (q->y < least || !sort_line(r, sign, q, c)) {
-            return 0;
-        }
+    if (q->y >= rest) { /* the other ramp, sat(r w_o) */
+        c->y_low = rest > c->y_low ? rest : c->y_low;
+    } else {
+        c->y_high = rest < c->y_high ? rest : c->y_high;
     }
-    return 1;
 }
 
-/* Narrow the patch to a table's cell; 0 when the point is not inside of it. */
-static int narrow_y(gm_real low, gm_real high, gm_real y, gm_drag_patch *c)
+/* Narrow the patch to spots; speeds are not below zero. */
+static void narrow(const gm_spot *x, const gm_spot *y, gm_patch *c)
 {
-    c->y_low = low > c->y_low ? low : c->y_low;
-    c->y_high = high < c->y_high ? high : c->y_high;
-    return y >= low && y < high;
+    c->x_low = x->low > c->x_low ? x->low : c->x_low;
+    c->x_high = x->high < c->x_high ? x->high : c->x_high;
+    c->y_low = y->low > c->y_low ? y->low : c->y_low;
+    c->y_high = y->high < c->y_high ? y->high : c->y_high;
+    c->outside = (short)(c->outside | x->outside | y->outside);
 }
 
-static int narrow(const gm_cell2 *cell, const place *q, gm_drag_patch *c)
+/* The surface of a table in its spots about the corner of the patch. */
+static gm_surface about_corner(const gm_table2 *t, const place *q, const gm_spot *x,
+                               const gm_spot *y, const gm_patch *c)
 {
-    c->x_low = cell->x_low > c->x_low ? cell->x_low : c->x_low;
-    c->x_high = cell->x_high < c->x_high ? cell->x_high : c->x_high;
-    return narrow_y(cell->y_low, cell->y_high, q->y, c) && q->x >= cell->x_low &&
-           q->x < cell->x_high;
-}
-
-/* A cell's surface about the corner of the patch. */
-static gm_surface surface_of(const gm_cell2 *cell, const gm_drag_patch *c)
-{
-    const gm_value2 corner = gm_cell2_inside(cell, c->x_low, c->y_low);
-    const gm_surface s = {corner.value, corner.dx, corner.dy, cell->cxy};
+    gm_surface s = GM_CURVED && t->monotone ? gm_tangent_at(t, q->x, q->y, x, y)
+                                            : gm_surface_at(t, x, y);
+    const gm_real u = x->next ? c->x_low - x->low : 0;
+    const gm_real v = y->next ? c->y_low - y->low : 0;
+    s.c += s.cx * u + s.cy * v + s.cxy * u * v;
+    s.cx += s.cxy * v;
+    s.cy += s.cxy * u;
     return s;
 }
 
-static void add_line_to_patch(const gm_cell1 *jump, gm_real r, const place *q,
-                              gm_drag_patch *c)
+/* k (half + slope v) (c + cx u + cy v) */
+static void add_product(gm_real k, const gm_real half[2], const gm_real ramp[3],
+                        gm_surface *s)
 {
-    const gm_real half = gm_cell1_inside(jump, c->y_low).value / 2, half_y = jump->cx / 2;
-    const gm_real slip = q->w - r * q->w_o, rest = r * q->w_o > 0 ? 1 : -1;
-    gm_real side = slip > 0 ? 1 : -1;
-    if (on_ramp(slip)) {
-        c->half = half;
-        c->half_y = half_y;
-        side = 0;
-    }
-    c->drag.c0 += side * half;
-    c->drag.cy += side * half_y;
-    c->reaction.c0 -= r * (side + rest) * half;
-    c->reaction.cy -= r * (side + rest) * half_y;
+    s->c += k * half[0] * ramp[0];
+    s->cx += k * half[0] * ramp[1];
+    s->cy += k * (half[0] * ramp[2] + half[1] * ramp[0]);
+    s->cxy += k * half[1] * ramp[1];
+    s->cyy += k * half[1] * ramp[2];
 }
 
-/* The patch around q in *c; 0 when there is none: on a ramp, at or beyond an edge,
- * over monotone tables. */
-static int fill_patch(const gm_drive *d, int p, const place *q, gm_drag_patch *c)
+/* sat(w_n - r w_o) and sat(r w_o) over the patch: c + cx u + cy v. */
+static void ramps_of(gm_real r, const place *q, const gm_patch *c, gm_real slip[3],
+                     gm_real rest[3])
 {
-    const gm_path *path = &d->map->path[p];
-    static const gm_drag_patch empty = {0};
-    gm_drag_patch made = empty;
-    gm_cell2 *n = &d->cache->drag[p], *r = &d->cache->reaction[p];
-    gm_cell1 jump;
-    made.x_high = made.y_high = GM_UNBOUNDED;
-    if (path->drag[q->i][q->j].monotone || !sort_lines(path, q, &made)) {
-        return 0;
+    const gm_real turn = r * q->sign_o / GM_LINE_WIDTH, now = q->w - r * q->w_o;
+    const gm_real ahead = q->sign_n / GM_LINE_WIDTH;
+    slip[0] = now > 0 ? 1 : -1;
+    slip[1] = slip[2] = rest[1] = rest[2] = 0;
+    if (now < GM_LINE_WIDTH && now > -GM_LINE_WIDTH) {
+        slip[0] = ahead * c->x_low - turn * c->y_low;
+        slip[1] = ahead;
+        slip[2] = -turn;
     }
-    gm_cell2_at(&path->drag[q->i][q->j], quadrant(q), n, q->x, q->y);
-    gm_cell2_at(&path->reaction[q->i][q->j], quadrant(q), r, q->x, q->y);
-    if (!narrow(n, q, &made) || !narrow(r, q, &made)) {
-        return 0;
-    }
-    for (int i = 0; i < path->n_lines; i++) {
-        line_jump(d, p, i, q, &jump);
-        if (!narrow_y(jump.x_low, jump.x_high, q->y, &made)) {
-            return 0;
-        }
-    }
-    made.drag = surface_of(n, &made);
-    made.reaction = surface_of(r, &made);
-    for (int i = 0; i < path->n_lines; i++) {
-        line_jump(d, p, i, q, &jump);
-        add_line_to_patch(&jump, path->lines[i].ratio, q, &made);
-    }
-    made.key = quadrant(q);
-    *c = made;
-    return 1;
-}
-
-/* The line that the patch lies on. */
-static void add_ramp(const gm_drag_patch *c, const place *q, gm_real sign_o,
-                     gm_real scale, gm_path_terms *t)
-{
-    const gm_real r = c->ratio_ramp, s = (q->w - r * q->w_o) / GM_LINE_WIDTH;
-    const gm_real half = scale * (c->half + c->half_y * (q->y - c->y_low));
-    const gm_real slope = half / GM_LINE_WIDTH;
-    const gm_real slope_o = scale * sign_o * c->half_y * s - r * slope;
-    t->drag += half * s;
-    t->drag_n += slope;
-    t->drag_o += slope_o;
-    t->reaction -= r * half * s;
-    t->reaction_n -= r * slope;
-    t->reaction_o -= r * slope_o;
-}
-
-static void set_from_patch(const gm_drag_patch *c, const place *q, gm_real sign_n,
-                           gm_real sign_o, gm_real scale, gm_path_terms *t)
-{
-    const gm_surface *n = &c->drag, *r = &c->reaction;
-    const gm_real u = q->x - c->x_low, v = q->y - c->y_low;
-    const gm_real n_x = n->cx + n->cxy * v, r_x = r->cx + r->cxy * v;
-    t->drag = scale * (n->c0 + n->cy * v + n_x * u);
-    t->drag_n = scale * sign_n * n_x;
-    t->drag_o = scale * sign_o * (n->cy + n->cxy * u);
-    t->reaction = scale * (r->c0 + r->cy * v + r_x * u);
-    t->reaction_n = scale * sign_n * r_x;
-    t->reaction_o = scale * sign_o * (r->cy + r->cxy * u);
-    if (c->any_ramp) {
-        add_ramp(c, q, sign_o, scale, t);
+    rest[0] = turn > 0 ? 1 : -1;
+    if (q->y < GM_LINE_WIDTH / gm_abs(r)) {
+        rest[0] = turn * c->y_low;
+        rest[2] = turn;
     }
 }
 
-/* ---- the sum over the lines ---- */
-
-/* Side of a ramp that x lies on: 1 below, 2 on it, 3 above. */
-static unsigned side_of(gm_real x)
+static void add_line(const gm_drag_line *line, const place *q, const gm_spot *y,
+                     gm_patch *c)
 {
-    return x >= GM_LINE_WIDTH ? 3 : x <= -GM_LINE_WIDTH ? 1 : 2;
+    const gm_real r = line->ratio, v = y->next ? c->y_low - y->low : 0;
+    const gm_strip jump = gm_line_at(&line->jump[q->j], q->y, y);
+    const gm_real half[2] = {(jump.c + jump.cx * v) / 2, jump.cx / 2};
+    gm_real slip[3], rest[3];
+    ramps_of(r, q, c, slip, rest);
+    add_product(1, half, slip, &c->a);
+    for (int i = 0; i < 3; i++) {
+        rest[i] += slip[i];
+    }
+    add_product(-r, half, rest, &c->b);
 }
 
-/* sat and its slope */
-static gm_real ramp(gm_real x, unsigned side, gm_real *slope)
+/* The spot on another axis: the same one if the axis is. */
+static gm_spot spot_again(const gm_axis *axis, int monotone, const gm_axis *first,
+                          const gm_spot *s, gm_real q)
 {
-    *slope = side == 2 ? 1 / GM_LINE_WIDTH : 0;
-    return side == 2 ? x / GM_LINE_WIDTH : (gm_real)side - 2;
+    if (axis->x == first->x && axis->n == first->n) {
+        return *s;
+    }
+    return monotone ? gm_spot_near(axis, q) : gm_spot_on(axis, q);
 }
 
-static void add_line(const gm_drive *d, int p, int line, const place *q, gm_terms *t)
+static void fill(const gm_path *path, const place *q, gm_patch *c)
 {
-    const gm_real r = d->map->path[p].lines[line].ratio;
-    const gm_real slip = q->w - r * q->w_o, sigma = q->j == GM_BACKWARD ? -1 : 1;
-    gm_cell1 unused;
-    const gm_value1 j = line_jump(d, p, line, q, &unused);
-    const gm_real half = d->scale * j.value / 2, half_o = d->scale * sigma * j.dx / 2;
-    const unsigned side = side_of(slip), side_rest = side_of(r * q->w_o);
-    gm_real slope, slope_rest;
-    const gm_real s = ramp(slip, side, &slope);
-    const gm_real s_both = s + ramp(r * q->w_o, side_rest, &slope_rest);
-    gm_path_terms *path = &t->path[p];
-    path->drag += half * s;
-    path->drag_n += half * slope;
-    path->drag_o += half_o * s - half * slope * r;
-    path->reaction -= r * half * s_both;
-    path->reaction_n -= r * half * slope;
-    path->reaction_o -= r * (half_o * s_both + half * r * (slope_rest - slope));
-    path->ramps = 16 * path->ramps + 4 * side + side_rest;
-    t->outside |= j.outside;
-}
-
-static void add_all(const gm_drive *d, int p, const place *q, gm_real sign_n,
-                    gm_real sign_o, gm_terms *t)
-{
-    const gm_path *path = &d->map->path[p];
-    const gm_real scale = d->scale;
-    gm_path_terms *terms = &t->path[p];
-    const gm_value2 n =
-        gm_cell2_at(&path->drag[q->i][q->j], quadrant(q), &d->cache->drag[p], q->x, q->y);
-    const gm_value2 r = gm_cell2_at(&path->reaction[q->i][q->j], quadrant(q),
-                                    &d->cache->reaction[p], q->x, q->y);
-    terms->drag = scale * n.value;
-    terms->drag_n = scale * sign_n * n.dx;
-    terms->drag_o = scale * sign_o * n.dy;
-    terms->reaction = scale * r.value;
-    terms->reaction_n = scale * sign_n * r.dx;
-    terms->reaction_o = scale * sign_o * r.dy;
-    terms->ramps = 0;
-    t->outside |= n.outside || r.outside;
-    for (int line = 0; line < path->n_lines; line++) {
-        add_line(d, p, line, q, t);
+    const gm_table2 *n = &path->drag[q->i][q->j], *r = &path->reaction[q->i][q->j];
+    const int curved = GM_CURVED && n->monotone, n_lines = path->n_lines;
+    const gm_spot x_n = curved ? gm_spot_near(&n->x, q->x) : gm_spot_on(&n->x, q->x);
+    const gm_spot y_n = curved ? gm_spot_near(&n->y, q->y) : gm_spot_on(&n->y, q->y);
+    const gm_spot x_r = spot_again(&r->x, curved, &n->x, &x_n, q->x);
+    const gm_spot y_r = spot_again(&r->y, curved, &n->y, &y_n, q->y);
+    c->key = (short)quadrant(q);
+    c->outside = c->sides = 0;
+    c->x_low = c->y_low = 0;
+    c->x_high = c->y_high = GM_UNBOUNDED;
+    narrow(&x_n, &y_n, c);
+    narrow(&x_r, &y_r, c);
+    for (int i = 0; i < n_lines; i++) {
+        const gm_axis *axis = &path->lines[i].jump[q->j].x;
+        const gm_spot y = spot_again(axis, curved, &n->y, &y_n, q->y);
+        narrow(&x_n, &y, c);
+        add_bounds(path->lines[i].ratio, q, c);
+    }
+    c->a = about_corner(n, q, &x_n, &y_n, c);
+    c->b = about_corner(r, q, &x_r, &y_r, c);
+    for (int i = 0; i < n_lines; i++) {
+        const gm_axis *axis = &path->lines[i].jump[q->j].x;
+        const gm_spot y = spot_again(axis, curved, &n->y, &y_n, q->y);
+        add_line(&path->lines[i], q, &y, c);
     }
 }
+
+/* ---- reading it ---- */
 
 void gm_drag_terms(const gm_drive *d, int p, gm_real sign_n, gm_real sign_o,
                    const gm_point *at, gm_terms *t)
 {
     const place q = place_of(p, sign_n, sign_o, at);
-    gm_drag_patch *patch = &d->cache->patch[p][q.i];
+    const gm_path *path = &d->map->path[p];
+    gm_patch *c = &d->cache->path[p];
     gm_path_terms *terms = &t->path[p];
-    terms->patched = in_patch(patch, &q) || fill_patch(d, p, &q, patch);
-    if (terms->patched) {
-        set_from_patch(patch, &q, sign_n, sign_o, d->scale, terms);
-    } else {
-        add_all(d, p, &q, sign_n, sign_o, t);
+    if (!is_here(c, &q) || (GM_CURVED && path->drag[0][0].monotone)) {
+        fill(path, &q, c);
     }
-    if (sign_n * at->m[p] < 0) {
-        terms->drag_n = terms->reaction_n = 0;
+    const gm_surface *n = &c->a, *r = &c->b;
+    const gm_real u = q.x - c->x_low, v = q.y - c->y_low;
+    const gm_real n_x = n->cx + n->cxy * v, r_x = r->cx + r->cxy * v;
+    const gm_real per_n = sign_n * at->m[p] < 0 ? 0 : d->scale * sign_n;
+    const gm_real per_o = sign_o * at->m[GM_OUT] < 0 ? 0 : d->scale * sign_o;
+    terms->drag = d->scale * (n->c + (n->cy + n->cyy * v) * v + n_x * u);
+    terms->drag_n = per_n * n_x;
+    terms->drag_o = per_o * (n->cy + n->cxy * u + 2 * n->cyy * v);
+    terms->reaction = d->scale * (r->c + (r->cy + r->cyy * v) * v + r_x * u);
+    terms->reaction_n = per_n * r_x;
+    terms->reaction_o = per_o * (r->cy + r->cxy * u + 2 * r->cyy * v);
+    t->outside |= c->outside;
+}
+
+gm_real gm_drag_at_rest(const gm_drive *d, int p, gm_real sign_n, gm_real sign_o,
+                        const gm_point *at, int *outside)
+{
+    const gm_path *path = &d->map->path[p];
+    const int i = gm_direction(sign_n), j = gm_direction(sign_o);
+    const gm_real w_o = at->m[GM_OUT], y = gm_not_below_zero(sign_o * w_o);
+    const gm_table2 *n = &path->drag[i][j];
+    const gm_spot s = gm_spot_on(&n->y, y);
+    gm_real sum = gm_value_at_rest(n, y);
+    for (int k = 0; k < path->n_lines; k++) {
+        const gm_table1 *jump = &path->lines[k].jump[j];
+        const gm_spot l = spot_again(&jump->x, 0, &n->y, &s, y);
+        const gm_strip at_y = gm_line_at(jump, y, &l);
+        const gm_real slip = -path->lines[k].ratio * w_o / GM_LINE_WIDTH;
+        const gm_real half = (at_y.c + at_y.cx * (y - l.low)) / 2;
+        sum += half * (slip > 1 ? 1 : slip < -1 ? -1 : slip);
+        *outside |= l.outside;
     }
-    if (sign_o * at->m[GM_OUT] < 0) {
-        terms->drag_o = terms->reaction_o = 0;
-    }
+    *outside |= s.outside;
+    return d->scale * sum;
 }
 
 /* ---- do they hold at another point? ---- */
@@ -302,49 +257,16 @@ static int same_side_of_rest(gm_real sign, gm_real m, gm_real to)
     return (sign * m < 0) == (sign * to < 0);
 }
 
-static int patch_holds(const gm_drag_patch *c, const place *q, const place *to,
-                       const gm_path_terms *t)
-{
-    const gm_real du = to->x - q->x, dv = to->y - q->y;
-    const gm_real d_slip = to->w - q->w - c->ratio_ramp * (to->w_o - q->w_o);
-    const gm_real ramp_rest = c->any_ramp ? c->half_y * dv * d_slip / GM_LINE_WIDTH : 0;
-    return in_patch(c, to) && gm_is_small(c->drag.cxy * du * dv, t->drag) &&
-           gm_is_small(c->reaction.cxy * du * dv, t->reaction) &&
-           gm_is_small(ramp_rest, t->drag);
-}
-
-/* Whether every line's ramps and jump table are read in the same place. Of more than
- * eight lines the ramps of the last eight are compared. */
-static int lines_hold(const gm_drive *d, int p, const gm_path_terms *t, const place *q,
-                      const place *to)
-{
-    const gm_path *path = &d->map->path[p];
-    unsigned now = 0;
-    for (int i = 0; i < path->n_lines; i++) {
-        const gm_real r = path->lines[i].ratio;
-        const gm_cell1 *c = &d->cache->line[p][i < GM_CACHED_LINES ? i : 0];
-        now = 16 * now + 4 * side_of(to->w - r * to->w_o) + side_of(r * to->w_o);
-        if (!gm_cell1_holds(c, q->y, to->y, t->drag)) {
-            return 0;
-        }
-    }
-    return now == t->ramps;
-}
-
 int gm_drag_holds(const gm_drive *d, const gm_solution *s, int p, const gm_point *from,
                   const gm_point *next)
 {
     const gm_path_terms *t = &s->terms.path[p];
-    const place q = place_of(p, s->sign[p], s->sign[GM_OUT], from);
+    const gm_patch *c = &d->cache->path[p];
     const place to = place_of(p, s->sign[p], s->sign[GM_OUT], next);
-    if (!same_side_of_rest(s->sign[p], from->m[p], next->m[p]) ||
-        !same_side_of_rest(s->sign[GM_OUT], from->m[GM_OUT], next->m[GM_OUT])) {
-        return 0;
-    }
-    if (t->patched) {
-        return patch_holds(&d->cache->patch[p][q.i], &q, &to, t);
-    }
-    return gm_cell2_holds(&d->cache->drag[p], q.x, q.y, to.x, to.y, t->drag) &&
-           gm_cell2_holds(&d->cache->reaction[p], q.x, q.y, to.x, to.y, t->reaction) &&
-           lines_hold(d, p, t, &q, &to);
+    const gm_real du = next->m[p] - from->m[p], dv = next->m[GM_OUT] - from->m[GM_OUT];
+    return same_side_of_rest(s->sign[p], from->m[p], next->m[p]) &&
+           same_side_of_rest(s->sign[GM_OUT], from->m[GM_OUT], next->m[GM_OUT]) &&
+           is_here(c, &to) &&
+           gm_is_small((gm_abs(c->a.cxy * du) + gm_abs(c->a.cyy * dv)) * dv, t->drag) &&
+           gm_is_small((gm_abs(c->b.cxy * du) + gm_abs(c->b.cyy * dv)) * dv, t->reaction);
 }

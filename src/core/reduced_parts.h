@@ -9,8 +9,8 @@
 #ifndef REDUCED_PARTS_H
 #define REDUCED_PARTS_H
 
-#include "cell.h"
 #include "gm_reduced_modes.h"
+#include "reduced_cells.h"
 
 /* Sub-steps that a vibration may ask for in one step. */
 enum { GM_PARTS = 2 };
@@ -109,8 +109,6 @@ typedef struct gm_path_terms {
     gm_real drag, drag_n, drag_o;             /* N or pin; d/dw_n, d/dw_o */
     gm_real pin, pin_o;                       /* amount of its pin; d/dw_o */
     gm_real reaction, reaction_n, reaction_o; /* R */
-    int patched;    /* 1: N and R come from the patch of reduced_drag.c */
-    unsigned ramps; /* else: on which sides of the drag lines */
 } gm_path_terms;
 
 typedef struct gm_terms {
@@ -158,46 +156,10 @@ static inline int gm_direction(gm_real sign)
 #define GM_REMAINDER_NM                                                                  \
     GM_BY_TYPE(1e-9, 1e-5) /* N.m, where the torque itself passes through zero */
 
-/** Whether to lies in the same cell low .. high, or beyond the same edge, as from. */
-static inline int gm_stays(gm_real low, gm_real high, gm_real from, gm_real to)
-{
-    if (from < low) {
-        return to < low;
-    }
-    return from >= high ? to >= high : to >= low && to < high;
-}
-
 /** Whether a remainder may be left out beside a value. */
 static inline int gm_is_small(gm_real rest, gm_real value)
 {
     return gm_abs(rest) <= GM_REMAINDER * gm_abs(value) + GM_REMAINDER_NM;
-}
-
-/* The same of a monotone cell, which is curved everywhere: so small that one more pass,
- * from the solution of the last, brings it about. */
-#define GM_CURVED_REMAINDER GM_BY_TYPE(1e-8, 1e-6)
-
-/** gm_stays for a cell; in a monotone one the tangent must be near enough too. value:
- *  what the pass made of this table. */
-static inline int gm_cell1_holds(const gm_cell1 *c, gm_real x, gm_real x_to,
-                                 gm_real value)
-{
-    return gm_stays(c->x_low, c->x_high, x, x_to) &&
-           (c->table >= 0 || c->c0 / 2 * (x_to - x) * (x_to - x) <=
-                                 GM_CURVED_REMAINDER * gm_abs(value) + GM_REMAINDER_NM);
-}
-
-/** The same for a cell in two directions, with a small remainder. */
-static inline int gm_cell2_holds(const gm_cell2 *c, gm_real x, gm_real y, gm_real x_to,
-                                 gm_real y_to, gm_real value)
-{
-    if (!gm_stays(c->x_low, c->x_high, x, x_to) ||
-        !gm_stays(c->y_low, c->y_high, y, y_to)) {
-        return 0;
-    }
-    return c->table < 0 ? gm_abs(gm_monotone2_rest(c, x, y, x_to, y_to)) <=
-                              GM_CURVED_REMAINDER * gm_abs(value) + GM_REMAINDER_NM
-                        : gm_is_small(c->cxy * (x_to - x) * (y_to - y), value);
 }
 
 /** Gear engaged or being synchronised on path p; NULL in neutral. */
@@ -285,6 +247,9 @@ gm_real gm_substep(const gm_reduced_map *map, const gm_reduced_params *params,
                    const gm_reduced_inputs *in, const gm_span *span,
                    gm_reduced_cache *cache, gm_motion *s, int *outside);
 
+/** What no path and no coupling adds to. */
+void gm_clear_terms(gm_terms *terms);
+
 /** Table values at *point for the directions in *s: fills s->terms; point->tau_m is
  *  completed first. Terms of held shafts are zero: R(0, w_o) = 0, and what holds the
  *  output or a path is not needed for the motion. */
@@ -294,6 +259,11 @@ void gm_terms_at(const gm_drive *d, gm_solution *s, gm_point *point);
  *  and terms->path[].load of engaged paths) at point. */
 void gm_output_terms(const gm_drive *d, gm_real sign, const gm_point *point,
                      gm_terms *terms);
+
+/** The same torques, without gradients, where the output is about to leave rest in
+ *  direction sign; point->m[GM_OUT] is 0. */
+void gm_output_terms_at_rest(const gm_drive *d, gm_real sign, const gm_point *point,
+                             gm_terms *terms);
 
 /** How fast the two paths' speeds part: dw_0/dt - dw_1/dt. */
 static inline gm_real gm_parting(const gm_drive *d, const gm_point *at)
@@ -326,6 +296,11 @@ void gm_pin_friction(const gm_drive *d, int p, gm_real sign, const gm_point *poi
 void gm_drag_terms(const gm_drive *d, int p, gm_real sign_n, gm_real sign_o,
                    const gm_point *point, gm_terms *terms);
 
+/** N at standstill of free path p that is about to turn in direction sign_n; R is zero
+ *  there. */
+gm_real gm_drag_at_rest(const gm_drive *d, int p, gm_real sign_n, gm_real sign_o,
+                        const gm_point *point, int *outside);
+
 /** Part of gm_terms_hold for free path p. */
 int gm_drag_holds(const gm_drive *d, const gm_solution *s, int p, const gm_point *from,
                   const gm_point *next);
@@ -341,6 +316,12 @@ gm_real gm_output_balance(const gm_drive *d, const gm_terms *terms,
                           const gm_point *point);
 gm_real gm_path_balance(const gm_drive *d, const gm_terms *terms, const gm_point *point,
                         int p);
+
+/* A pivot below this part of the inertia means that falling gradients or dD/dtau near 1
+ * leave no unique solution: gradients are dropped then. */
+#define GM_PIVOT_LIMIT GM_NUM(0.1)
+
+void gm_drop_gradients(gm_terms *terms);
 
 /** Changes of the accelerations at point [GM_SHAFTS] that bring the linearised balances
  *  to zero, with the springs' torques in s->point. May drop gradients of s->terms. */

@@ -133,32 +133,94 @@ gm_real gm_brake(const gm_drive *d, const gm_solution *s)
     return driving_torque(d) - d->inertia[GM_OUT] * s->point.a[GM_OUT];
 }
 
+/* Where the springs are read first: at the present slips. */
+static void first_springs(const gm_drive *d, gm_solution *s, gm_point *at)
+{
+    static const gm_spring none = {0, 0, 0};
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        const gm_stride stride = {d->h, gm_slip(d, at, p), d->late};
+        s->slip[p] = d->elastic[p] ? stride.slip : 0;
+        s->spring[p] =
+            d->elastic[p] ? gm_spring_at(d->gear[p], d->twist[p], &stride) : none;
+        at->spring[p] = s->spring[p].torque;
+    }
+}
+
 /* First place: the output under its flange torques with the losses of the last step, free
  * paths at their present speed; with an elastic path everything at its present speed. */
 static void first_place(const gm_drive *d, gm_solution *s, gm_point *at)
 {
-    static const gm_spring no_spring = {0, 0, 0};
-    const int stays = s->held[GM_OUT] || d->elastic[0] || d->elastic[1];
-    at->a[0] = at->a[1] = 0;
-    at->a[GM_OUT] = stays ? 0 : (driving_torque(d) - d->brake) / d->inertia[GM_OUT];
+    const int sprung = d->elastic[0] || d->elastic[1];
+    at->a[0] = at->a[1] = at->spring[0] = at->spring[1] = 0;
+    at->a[GM_OUT] = s->held[GM_OUT] || sprung
+                        ? 0
+                        : (driving_torque(d) - d->brake) / d->inertia[GM_OUT];
     set_speeds(d, at);
-    for (int p = 0; p < GM_MAX_PATHS; p++) {
-        at->spring[p] = s->slip[p] = 0;
-        s->spring[p] = no_spring;
-        if (d->elastic[p]) {
-            const gm_stride stride = {d->h, gm_slip(d, at, p), d->late};
-            s->slip[p] = stride.slip;
-            s->spring[p] = gm_spring_at(d->gear[p], d->twist[p], &stride);
-            at->spring[p] = s->spring[p].torque;
-        }
+    if (sprung) {
+        first_springs(d, s, at);
     }
+}
+
+/* The usual case: nothing but the output moves by itself. */
+static int moves_alone(const gm_drive *d, const gm_solution *s)
+{
+    return !s->held[GM_OUT] && !d->own[0] && !d->own[1];
+}
+
+/* What d_a changes of the terms, and the place it leads to. */
+static void follow_alone(const gm_drive *d, gm_solution *s, const gm_point *at,
+                         gm_real d_a)
+{
+    gm_terms *t = &s->terms;
+    gm_point *to = &s->point;
+    const gm_real d_o = d->mean * d_a;
+    to->a[GM_OUT] = at->a[GM_OUT] + d_a;
+    to->m[GM_OUT] = d->w[GM_OUT] + d->mean * to->a[GM_OUT];
+    t->out += t->out_o * d_o;
+    for (int p = 0; p < d->n_paths; p++) {
+        gm_path_terms *path = &t->path[p];
+        const gm_real d_tau = -d->inertia[p] * d->ratio[p] * d_a;
+        to->m[p] = d->ratio[p] * to->m[GM_OUT];
+        to->tau_m[p] = at->tau_m[p] + d_tau;
+        t->out += t->out_tau[p] * d_tau;
+        path->load += path->load_o * d_o + path->load_tau * d_tau;
+    }
+}
+
+static void pass_alone(const gm_drive *d, gm_solution *s, gm_point *at)
+{
+    gm_terms *t = &s->terms;
+    const gm_real a = at->a[GM_OUT];
+    gm_real torque = d->tau[GM_OUT], inertia = d->inertia_own, slope;
+    gm_clear_terms(t);
+    for (int p = 0; p < d->n_paths; p++) {
+        at->tau_m[p] = d->tau[p] - d->inertia[p] * d->ratio[p] * a;
+    }
+    gm_output_terms(d, s->sign[GM_OUT], at, t);
+    slope = t->out_o;
+    for (int p = 0; p < d->n_paths; p++) {
+        const gm_path_terms *path = &t->path[p];
+        const gm_real r = d->ratio[p];
+        torque += r * (d->tau[p] - path->load);
+        inertia += d->inertia[p] * r * (r * (1 - path->load_tau) - t->out_tau[p]);
+        slope += r * path->load_o;
+    }
+    inertia += d->mean * slope;
+    if (!(inertia > GM_PIVOT_LIMIT * d->inertia[GM_OUT])) {
+        gm_drop_gradients(t);
+        inertia = d->inertia[GM_OUT];
+    }
+    follow_alone(d, s, at, (torque - t->out - d->inertia[GM_OUT] * a) / inertia);
 }
 
 static void one_pass(const gm_drive *d, gm_solution *s, gm_point *at)
 {
     gm_real change[GM_SHAFTS];
+    if (moves_alone(d, s)) {
+        pass_alone(d, s, at);
+        return;
+    }
     gm_terms_at(d, s, at);
-    s->point.spring[0] = s->point.spring[1] = 0;
     gm_newton_change(d, s, at, change);
     for (int k = 0; k < GM_SHAFTS; k++) {
         s->point.a[k] = at->a[k] + change[k];
@@ -177,15 +239,9 @@ static void reset_brackets(bracket b[GM_PLACE])
     }
 }
 
-void gm_solve_given(const gm_drive *d, gm_solution *s)
+/* Passes after the first, which has led from *at to s->point. */
+static void more_passes(const gm_drive *d, gm_solution *s, gm_point *at)
 {
-    gm_point at;
-    s->lead = d->h / 2;
-    first_place(d, s, &at);
-    one_pass(d, s, &at);
-    if (gm_terms_hold(d, s, &at, &s->point)) {
-        return;
-    }
     bracket brackets[GM_PLACE];
     gm_real lead = d->h / 2;
     reset_brackets(brackets);
@@ -195,14 +251,26 @@ void gm_solve_given(const gm_drive *d, gm_solution *s)
             reset_brackets(brackets);
             lead = s->lead;
         } else {
-            next_place(pass, &at, &next, brackets);
+            next_place(pass, at, &next, brackets);
             set_speeds(d, &next);
         }
-        at = next;
-        one_pass(d, s, &at);
-        if (gm_terms_hold(d, s, &at, &s->point)) {
+        *at = next;
+        one_pass(d, s, at);
+        if (gm_terms_hold(d, s, at, &s->point)) {
             return;
         }
+    }
+}
+
+void gm_solve_given(const gm_drive *d, gm_solution *s)
+{
+    gm_point at;
+    s->lead = d->h / 2;
+    s->point.a[0] = s->point.a[1] = s->point.spring[0] = s->point.spring[1] = 0;
+    first_place(d, s, &at);
+    one_pass(d, s, &at);
+    if (!gm_terms_hold(d, s, &at, &s->point)) {
+        more_passes(d, s, &at);
     }
 }
 
@@ -216,7 +284,8 @@ static gm_real path_excess(const gm_drive *d, const gm_solution *s, int p, gm_re
     if (d->elastic[p]) {
         gm_pin_friction(d, p, sign, &at, t);
     } else {
-        gm_drag_terms(d, p, sign, s->sign[GM_OUT], &at, t);
+        t->path[p].drag = gm_drag_at_rest(d, p, sign, s->sign[GM_OUT], &at, &t->outside);
+        t->path[p].reaction = 0;
     }
     return gm_path_balance(d, t, &at, p);
 }
@@ -236,7 +305,7 @@ static gm_real output_excess(const gm_drive *d, const gm_solution *s, gm_real si
             gm_drag_terms(d, p, s->sign[p], sign, &at, t);
         }
     }
-    gm_output_terms(d, sign, &at, t);
+    gm_output_terms_at_rest(d, sign, &at, t);
     return gm_output_balance(d, t, &at);
 }
 

@@ -11,10 +11,10 @@
  *
  * The drag of free paths is in reduced_drag.c. Sources: the equations in gm_reduced.h.
  * Speeds enter the tables as magnitudes; an iterate that overshoots standstill is read at
- * zero, as a constant.
+ * zero, as a constant. What was read is linear over a range; a solution within the ranges
+ * of all tables is final.
  */
 #include "reduced_parts.h"
-#include "cell.h"
 
 #include <stddef.h>
 
@@ -38,69 +38,94 @@ static gm_real coupling_at(const gm_drive *d, const gm_solution *s, const gm_poi
                            gm_terms *t)
 {
     const gm_real slip = d->w[0] - d->w[1] + s->lead * gm_parting(d, at);
-    const gm_value1 c = gm_cell1_at(&d->map->coupling, 1, &d->cache->coupling, slip);
-    t->coupling = d->scale * c.value;
-    t->coupling_w = d->scale * c.dx;
+    const gm_strip *c = gm_strip_at(&d->map->coupling, 1, &d->cache->coupling, slip);
+    t->coupling = d->scale * gm_on_strip(c, slip);
+    t->coupling_w = d->scale * c->cx;
     t->coupling_a = t->coupling_w * s->lead;
-    t->outside |= c.outside;
+    t->outside |= c->outside;
     return t->coupling;
+}
+
+/* Number of a gear and a direction, from 1. */
+static int gear_key(const gm_drive *d, int p, int dir)
+{
+    return 1 + 2 * (int)(d->gear[p] - d->map->path[p].gears) + dir;
 }
 
 static void load_terms(const gm_drive *d, int p, gm_real sign_o, const gm_point *at,
                        gm_terms *t)
 {
-    const gm_gear *gear = d->gear[p];
-    const gm_real sigma = gear->ratio < 0 ? -sign_o : sign_o;
-    const int dir = gm_direction(sigma);
-    const gm_real speed = sigma * gear->ratio * at->m[GM_OUT];
-    const gm_value2 v = gm_cell2_at(
-        &gear->load_loss[dir], 1 + (int)(gear - d->map->path[p].gears),
-        &d->cache->load_loss[p][dir], gm_not_below_zero(speed), sigma * at->tau_m[p]);
+    const gm_real r = d->ratio[p], sigma = r < 0 ? -sign_o : sign_o;
+    const int dir = gm_direction(sigma), key = gear_key(d, p, dir);
+    const gm_table2 *table = &d->gear[p]->load_loss[dir];
+    const gm_real speed = sigma * r * at->m[GM_OUT], x = gm_not_below_zero(speed);
+    const gm_real y = sigma * at->tau_m[p];
+    gm_patch *c = &d->cache->path[p];
+    if (c->key != key || !gm_in_patch(c, x, y) || (GM_CURVED && table->monotone)) {
+        gm_fill_patch(table, key, x, y, c);
+    }
+    const gm_real u = x - c->x_low, v = y - c->y_low, dx = c->a.cx + c->a.cxy * v;
     gm_path_terms *path = &t->path[p];
-    path->load = d->scale * sigma * v.value;
-    path->load_o = speed < 0 ? 0 : d->scale * v.dx * gear->ratio;
-    path->load_tau = d->scale * v.dy;
-    t->outside |= v.outside;
+    path->load = d->scale * sigma * (c->a.c + c->a.cy * v + dx * u);
+    path->load_o = speed < 0 ? 0 : d->scale * dx * r;
+    path->load_tau = d->scale * (c->a.cy + c->a.cxy * u);
+    t->outside |= c->outside;
 }
 
 /* X acts only while both paths are engaged. */
 static void add_both_loaded(const gm_drive *d, gm_real sigma, const gm_point *at,
                             gm_terms *t)
 {
-    const gm_table3 *table = &d->configuration->both_loaded[gm_direction(sigma)];
-    const gm_real scale = d->scale;
+    const int dir = gm_direction(sigma), key = 1 + 2 * d->index + dir;
+    const gm_table3 *table = &d->configuration->both_loaded[dir];
+    const gm_real scale = d->scale, speed = sigma * at->m[GM_OUT];
+    const gm_real s0 = d->ratio[0] < 0 ? -sigma : sigma;
+    const gm_real s1 = d->ratio[1] < 0 ? -sigma : sigma;
+    const gm_real q[3] = {gm_not_below_zero(speed), s0 * at->tau_m[0], s1 * at->tau_m[1]};
+    gm_block *b = &d->cache->both_loaded;
     if (table->value == NULL) {
         return;
     }
-    const gm_real s0 = d->ratio[0] < 0 ? -sigma : sigma,
-                  s1 = d->ratio[1] < 0 ? -sigma : sigma;
-    const gm_value3 v = gm_cell3_at(
-        table, d->index + 1, &d->cache->both_loaded[gm_direction(sigma)],
-        gm_not_below_zero(sigma * at->m[GM_OUT]), s0 * at->tau_m[0], s1 * at->tau_m[1]);
-    t->out += scale * sigma * v.value;
-    t->out_o += sigma * at->m[GM_OUT] < 0 ? 0 : scale * v.dx;
-    t->out_tau[0] = scale * sigma * v.dy * s0;
-    t->out_tau[1] = scale * sigma * v.dz * s1;
-    t->outside |= v.outside;
+    if (b->key != key || !gm_in_block(b, q)) {
+        gm_fill_block(table, key, q, b);
+    }
+    const gm_real u = q[0] - b->low[0], v = q[1] - b->low[1], w = q[2] - b->low[2];
+    const gm_real(*c)[2][2] = (const gm_real(*)[2][2])b->c;
+    const gm_real far_v = c[1][1][0] + c[1][1][1] * w;
+    const gm_real dx = c[1][0][0] + c[1][0][1] * w + far_v * v;
+    const gm_real dy = c[0][1][0] + c[0][1][1] * w + far_v * u;
+    const gm_real dz = c[0][0][1] + c[0][1][1] * v + (c[1][0][1] + c[1][1][1] * v) * u;
+    const gm_real value =
+        c[0][0][0] + c[0][0][1] * w + (c[0][1][0] + c[0][1][1] * w) * v + dx * u;
+    t->out += scale * sigma * value;
+    t->out_o += speed < 0 ? 0 : scale * dx;
+    t->out_tau[0] = scale * sigma * dy * s0;
+    t->out_tau[1] = scale * sigma * dz * s1;
+    t->outside |= b->outside;
+}
+
+static void take_off_pin(const gm_drive *d, gm_real sigma, int p, gm_terms *t)
+{
+    const gm_real r = sigma * gm_abs(d->ratio[p]);
+    t->out -= r * t->path[p].pin;
+    t->out_o -= r * t->path[p].pin_o;
 }
 
 void gm_output_terms(const gm_drive *d, gm_real sigma, const gm_point *at, gm_terms *t)
 {
     const int dir = gm_direction(sigma);
-    const gm_value1 v =
-        gm_cell1_at(&d->configuration->parasitic[dir], d->index + 1,
-                    &d->cache->parasitic[dir], gm_not_below_zero(sigma * at->m[GM_OUT]));
-    t->out = d->scale * sigma * v.value;
-    t->out_o = sigma * at->m[GM_OUT] < 0 ? 0 : d->scale * v.dx;
-    t->outside |= v.outside;
+    const gm_real speed = sigma * at->m[GM_OUT], x = gm_not_below_zero(speed);
+    const gm_strip *c = gm_strip_at(&d->configuration->parasitic[dir],
+                                    1 + 2 * d->index + dir, &d->cache->parasitic, x);
+    t->out = d->scale * sigma * gm_on_strip(c, x);
+    t->out_o = speed < 0 ? 0 : d->scale * c->cx;
+    t->outside |= c->outside;
     for (int p = 0; p < d->n_paths; p++) {
         if (d->engaged[p]) {
             load_terms(d, p, sigma, at, t);
         }
         if (d->elastic[p]) {
-            const gm_real r = sigma * gm_abs(d->ratio[p]);
-            t->out -= r * t->path[p].pin;
-            t->out_o -= r * t->path[p].pin_o;
+            take_off_pin(d, sigma, p, t);
         }
     }
     if (d->engaged[0] && d->engaged[1]) {
@@ -108,22 +133,48 @@ void gm_output_terms(const gm_drive *d, gm_real sigma, const gm_point *at, gm_te
     }
 }
 
-/* Pin of elastic path p where it turns in direction sign (of the path), as a torque in
- * that direction; d/dw_o in dx. */
-static gm_value1 pin_at(const gm_drive *d, int p, gm_real sign, const gm_point *at)
+void gm_output_terms_at_rest(const gm_drive *d, gm_real sign, const gm_point *at,
+                             gm_terms *t)
 {
-    static const gm_value1 none = {0, 0, 0};
-    const gm_gear *gear = d->gear[p];
     const int dir = gm_direction(sign);
-    const gm_real speed = sign * gear->ratio * at->m[GM_OUT];
-    if (gear->pin[dir].value == NULL) {
-        return none;
+    const gm_table3 *both = &d->configuration->both_loaded[dir];
+    gm_real sum = GM_NODE(&d->configuration->parasitic[dir], 0), s[GM_MAX_PATHS] = {0, 0};
+    for (int p = 0; p < d->n_paths; p++) {
+        s[p] = d->ratio[p] < 0 ? -sign : sign;
+        if (d->engaged[p]) {
+            const gm_table2 *load = &d->gear[p]->load_loss[gm_direction(s[p])];
+            t->path[p].load =
+                d->scale * s[p] * gm_value_at_rest(load, s[p] * at->tau_m[p]);
+        }
     }
-    gm_value1 v = gm_cell1_at(&gear->pin[dir], 1 + (int)(gear - d->map->path[p].gears),
-                              &d->cache->pin[p][dir], gm_not_below_zero(speed));
-    v.value *= d->scale;
-    v.dx = speed < 0 ? 0 : d->scale * v.dx * sign * gear->ratio;
-    return v;
+    if (d->engaged[0] && d->engaged[1] && both->value != NULL) {
+        sum += gm_value3_at_rest(both, s[0] * at->tau_m[0], s[1] * at->tau_m[1]);
+    }
+    t->out = d->scale * sign * sum;
+    for (int p = 0; p < d->n_paths; p++) {
+        if (d->elastic[p]) {
+            take_off_pin(d, sign, p, t);
+        }
+    }
+}
+
+/* Pin of elastic path p where it turns in direction sign (of the path), as a torque in
+ * that direction; d/dw_o in *slope. */
+static gm_real pin_at(const gm_drive *d, int p, gm_real sign, const gm_point *at,
+                      gm_real *slope, gm_terms *t)
+{
+    const int dir = gm_direction(sign);
+    const gm_table1 *table = &d->gear[p]->pin[dir];
+    const gm_real r = sign * d->ratio[p], speed = r * at->m[GM_OUT];
+    const gm_real x = gm_not_below_zero(speed);
+    *slope = 0;
+    if (table->value == NULL) {
+        return 0;
+    }
+    const gm_strip *c = gm_strip_at(table, gear_key(d, p, dir), &d->cache->pin[p], x);
+    *slope = speed < 0 ? 0 : d->scale * c->cx * r;
+    t->outside |= c->outside;
+    return d->scale * gm_on_strip(c, x);
 }
 
 void gm_pin_terms(const gm_drive *d, const gm_solution *s, int p, gm_real sign_o,
@@ -131,35 +182,38 @@ void gm_pin_terms(const gm_drive *d, const gm_solution *s, int p, gm_real sign_o
 {
     const gm_real sigma = d->ratio[p] < 0 ? -sign_o : sign_o;
     gm_path_terms *path = &t->path[p];
-    gm_value1 v = pin_at(d, p, s->sign[p], at);
+    gm_real slope, pin = pin_at(d, p, s->sign[p], at, &slope, t);
     if (s->held[p]) {
         at->tau_m[p] = d->tau[p] + (p == 0 ? -t->coupling : t->coupling);
     } else {
-        path->drag = s->sign[p] * v.value;
-        path->drag_o = s->sign[p] * v.dx;
+        path->drag = s->sign[p] * pin;
+        path->drag_o = s->sign[p] * slope;
         at->tau_m[p] = at->spring[p] + path->drag;
     }
-    t->outside |= v.outside;
     if (sigma * s->sign[p] < 0) {
-        v = pin_at(d, p, sigma, at);
-        t->outside |= v.outside;
+        pin = pin_at(d, p, sigma, at, &slope, t);
     }
-    path->pin = v.value;
-    path->pin_o = v.dx;
+    path->pin = pin;
+    path->pin_o = slope;
 }
 
 void gm_pin_friction(const gm_drive *d, int p, gm_real sign, const gm_point *at,
                      gm_terms *t)
 {
-    const gm_value1 v = pin_at(d, p, sign, at);
-    t->path[p].drag = sign * v.value;
+    gm_real unused;
+    t->path[p].drag = sign * pin_at(d, p, sign, at, &unused, t);
+}
+
+void gm_clear_terms(gm_terms *t)
+{
+    static const gm_terms none = {0};
+    *t = none;
 }
 
 void gm_terms_at(const gm_drive *d, gm_solution *s, gm_point *at)
 {
-    static const gm_terms none = {0};
     gm_terms *t = &s->terms;
-    *t = none;
+    gm_clear_terms(t);
     const gm_real c = d->coupled ? coupling_at(d, s, at, t) : 0;
     for (int p = 0; p < d->n_paths; p++) {
         const gm_real tau = d->tau[p] + (p == 0 ? -c : c);
@@ -176,106 +230,80 @@ void gm_terms_at(const gm_drive *d, gm_solution *s, gm_point *at)
     }
 }
 
-/* ---- do they hold at another point? ----
- *
- * Speeds beyond rest are compared as they are: there the terms are constants, not the
- * first cell. */
+/* ---- do they hold at another point? ---- */
+
+/* The moment at which C is read must fit its slope as well; it only ever moves towards
+ * the end of the step, so that the passes settle. */
+static int coupling_holds(const gm_drive *d, gm_solution *s, const gm_point *to)
+{
+    const gm_real lead = coupling_lead(d, s->terms.coupling_w);
+    if (lead > s->lead) {
+        s->lead = lead;
+        return 0;
+    }
+    return gm_in_strip(&d->cache->coupling, d->w[0] - d->w[1] + lead * gm_parting(d, to));
+}
+
+/* x: speed of the output in its direction. The pin of the other direction is read where
+ * the output has just left rest only, and constant then. */
+static int load_holds(const gm_drive *d, const gm_solution *s, int p, gm_real x,
+                      const gm_point *at, const gm_point *to)
+{
+    const gm_patch *c = &d->cache->path[p];
+    const gm_real sigma = d->ratio[p] < 0 ? -s->sign[GM_OUT] : s->sign[GM_OUT];
+    const gm_real w = gm_abs(d->ratio[p]) * x;
+    const gm_real dx = gm_abs(d->ratio[p]) * (to->m[GM_OUT] - at->m[GM_OUT]);
+    return gm_in_patch(c, w, sigma * to->tau_m[p]) &&
+           gm_is_small(c->a.cxy * dx * (to->tau_m[p] - at->tau_m[p]),
+                       s->terms.path[p].load) &&
+           (!d->elastic[p] || d->gear[p]->pin[0].value == NULL ||
+            gm_in_strip(&d->cache->pin[p], w));
+}
 
 /* Of the remainder the part of the two torques is the largest by far: each changes with
  * the acceleration, the speed only with half a step of it. It does not fall with the step
  * (the first guess of the acceleration may be wrong at any), so next to nothing of it may
  * be left out. */
-static int both_loaded_holds(const gm_drive *d, const gm_solution *s, const gm_point *at,
-                             const gm_point *to)
+static int both_loaded_holds(const gm_drive *d, const gm_solution *s, gm_real x,
+                             const gm_point *at, const gm_point *to)
 {
     const gm_real sigma = s->sign[GM_OUT];
-    const int dir = gm_direction(sigma);
-    const gm_cell3 *c = &d->cache->both_loaded[dir];
-    if (!d->engaged[0] || !d->engaged[1] ||
-        d->configuration->both_loaded[dir].value == NULL) {
-        return 1;
-    }
-    const gm_real s0 = d->ratio[0] < 0 ? -sigma : sigma;
-    const gm_real s1 = d->ratio[1] < 0 ? -sigma : sigma;
-    return gm_stays(c->x_low, c->x_high, sigma * at->m[GM_OUT], sigma * to->m[GM_OUT]) &&
-           gm_stays(c->y_low, c->y_high, s0 * at->tau_m[0], s0 * to->tau_m[0]) &&
-           gm_stays(c->z_low, c->z_high, s1 * at->tau_m[1], s1 * to->tau_m[1]) &&
-           gm_abs(c->c[0][1][1] * (to->tau_m[0] - at->tau_m[0]) *
-                  (to->tau_m[1] - at->tau_m[1])) <= GM_REMAINDER_NM;
+    const gm_block *b = &d->cache->both_loaded;
+    const gm_real q[3] = {x,
+                          d->ratio[0] < 0 ? -sigma * to->tau_m[0] : sigma * to->tau_m[0],
+                          d->ratio[1] < 0 ? -sigma * to->tau_m[1] : sigma * to->tau_m[1]};
+    return !d->engaged[0] || !d->engaged[1] ||
+           d->configuration->both_loaded[gm_direction(sigma)].value == NULL ||
+           (gm_in_block(b, q) &&
+            gm_abs(b->c[0][1][1] * (to->tau_m[0] - at->tau_m[0]) *
+                   (to->tau_m[1] - at->tau_m[1])) <= GM_REMAINDER_NM);
 }
 
 static int output_holds(const gm_drive *d, const gm_solution *s, const gm_point *at,
                         const gm_point *to)
 {
-    const gm_real sign_o = s->sign[GM_OUT];
-    const gm_cell1 *c = &d->cache->parasitic[gm_direction(sign_o)];
-    if (!gm_cell1_holds(c, sign_o * at->m[GM_OUT], sign_o * to->m[GM_OUT],
-                        s->terms.out) ||
-        !both_loaded_holds(d, s, at, to)) {
+    const gm_real from = s->sign[GM_OUT] * at->m[GM_OUT];
+    const gm_real speed = s->sign[GM_OUT] * to->m[GM_OUT], x = gm_not_below_zero(speed);
+    if ((from < 0) != (speed < 0) || !gm_in_strip(&d->cache->parasitic, x) ||
+        !both_loaded_holds(d, s, x, at, to)) {
         return 0;
     }
     for (int p = 0; p < d->n_paths; p++) {
-        const gm_real sign = d->ratio[p] < 0 ? -sign_o : sign_o;
-        const gm_real r = sign * d->ratio[p];
-        if (d->engaged[p] &&
-            !gm_cell2_holds(&d->cache->load_loss[p][gm_direction(sign)],
-                            r * at->m[GM_OUT], sign * at->tau_m[p], r * to->m[GM_OUT],
-                            sign * to->tau_m[p], s->terms.path[p].load)) {
+        if (d->engaged[p] && !load_holds(d, s, p, x, at, to)) {
             return 0;
         }
     }
     return 1;
 }
 
-/* As the others, and the moment at which C is read must fit its slope; it only ever
- * moves towards the end of the step, so that the passes settle. */
-static int coupling_holds(const gm_drive *d, gm_solution *s, const gm_point *at,
-                          const gm_point *to)
-{
-    const gm_cell1 *c = &d->cache->coupling;
-    const gm_real slip = d->w[0] - d->w[1];
-    const gm_real lead = coupling_lead(d, s->terms.coupling_w);
-    if (lead > s->lead) {
-        s->lead = lead;
-        return 0;
-    }
-    return gm_cell1_holds(c, slip + s->lead * gm_parting(d, at),
-                          slip + s->lead * gm_parting(d, to), s->terms.coupling);
-}
-
-/* Speeds beyond rest are not told apart from those below the first node. */
-static int pin_holds(const gm_drive *d, gm_real sign, int p, const gm_point *at,
-                     const gm_point *to, gm_real value)
-{
-    const int dir = gm_direction(sign);
-    const gm_cell1 *c = &d->cache->pin[p][dir];
-    const gm_real r = sign * d->ratio[p];
-    return d->gear[p]->pin[dir].value == NULL ||
-           gm_cell1_holds(c, r * at->m[GM_OUT], r * to->m[GM_OUT], value);
-}
-
-static int pins_hold(const gm_drive *d, const gm_solution *s, int p, const gm_point *at,
-                     const gm_point *to)
-{
-    const gm_real sigma = d->ratio[p] < 0 ? -s->sign[GM_OUT] : s->sign[GM_OUT];
-    return pin_holds(d, s->sign[p], p, at, to, s->terms.path[p].pin) &&
-           (sigma * s->sign[p] > 0 || s->held[GM_OUT] ||
-            pin_holds(d, sigma, p, at, to, s->terms.path[p].pin));
-}
-
 int gm_terms_hold(const gm_drive *d, gm_solution *s, const gm_point *at,
                   const gm_point *to)
 {
-    if (d->coupled && !coupling_holds(d, s, at, to)) {
-        return 0;
-    }
-    if (!s->held[GM_OUT] && !output_holds(d, s, at, to)) {
+    if ((d->coupled && !coupling_holds(d, s, to)) ||
+        (!s->held[GM_OUT] && !output_holds(d, s, at, to))) {
         return 0;
     }
     for (int p = 0; p < d->n_paths; p++) {
-        if (d->elastic[p] && !pins_hold(d, s, p, at, to)) {
-            return 0;
-        }
         if (d->free[p] && !s->held[p] && !gm_drag_holds(d, s, p, at, to)) {
             return 0;
         }

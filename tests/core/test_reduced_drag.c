@@ -78,7 +78,6 @@ static double sign_of(double w)
 static void follows_the_law_everywhere(void **state)
 {
     unsigned seed = 9;
-    int on_patch = 0, one_by_one = 0;
     (void)state;
     use_default();
     for (int i = 0; i < 20000; i++) {
@@ -92,10 +91,7 @@ static void follows_the_law_everywhere(void **state)
         /* rounding of torques near 1 in coefficients of wide cells */
         assert_near(t.drag, law_n(p, sign_of(w_n), w_n, w_o), 1e-13);
         assert_near(t.reaction, law_r(p, w_n, w_o), 1e-12);
-        on_patch += t.patched;
-        one_by_one += !t.patched;
     }
-    assert_true(on_patch > 5000 && one_by_one > 500);
 }
 
 static void gradients_are_difference_quotients(void **state)
