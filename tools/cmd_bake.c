@@ -4,6 +4,7 @@
  */
 #include "commands.h"
 
+#include "bake_c.h"
 #include "files.h"
 #include "map/gm_map_file.h"
 #include "stages.h"
@@ -13,6 +14,7 @@
 typedef struct arguments {
     const char *map, *output, *format;
     gm_bake_settings bake;
+    gm_bake_c_settings c;
     int json;
 } arguments;
 
@@ -23,11 +25,13 @@ static const gm_option options[] = {
      .help = "the map to bake"},
     {.kind = GM_OPTION_TEXT, .name = "output", .letter = 'o', .value = "FMU",
      .required = 1, .offset = offsetof(arguments, output),
-     .help = "the file to write"},
+     .help = "the file to write; for plain C the folder"},
     {.kind = GM_OPTION_TEXT, .name = "format", .value = "NAME", .fallback = "fmu2",
      .offset = offsetof(arguments, format),
-     .help = "fmu2: FMI 2.0, Model Exchange and Co-Simulation"},
+     .help = "fmu2: FMI 2.0, Model Exchange and Co-Simulation; c: a folder of plain C "
+             "for controllers and real-time rigs"},
     GM_BAKE_OPTIONS(arguments),
+    GM_BAKE_C_OPTIONS(arguments),
     GM_JSON_OPTION(arguments),
 };
 // clang-format on
@@ -76,12 +80,18 @@ static int run(const void *given)
 {
     const arguments *a = given;
     gm_error error = {0};
-    if (strcmp(a->format, "fmu2") != 0) {
-        fprintf(stderr, "gearmap: bake knows no format '%s' (only fmu2)\n", a->format);
+    const int is_c = strcmp(a->format, "c") == 0;
+    if (!is_c && strcmp(a->format, "fmu2") != 0) {
+        fprintf(stderr, "gearmap: bake knows no format '%s' (only fmu2, c)\n", a->format);
         return GM_EXIT_USAGE;
     }
-    if (!gm_stage_knows_interpolation(a->bake.interpolation))
+    if (!gm_stage_knows_interpolation(a->bake.interpolation) ||
+        !gm_bake_c_accepts(&a->c, is_c))
         return GM_EXIT_USAGE;
+    if (is_c)
+        return gm_command_end(gm_bake_c_run(a->map, a->bake.interpolation, &a->c,
+                                            a->output, a->json, &error),
+                              &error);
     return gm_command_end(bake(a, &error), &error);
 }
 

@@ -24,6 +24,7 @@ ARROWS = {
     "bake": {"map", "core", "base"},
     "vehicle": {"plant", "solve", "model", "base"},
     "fmu": {"core"},
+    "embedded": {"core"},
 }
 # A foreign library is the business of these rooms only.
 LIBRARIES = {
@@ -39,7 +40,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s+([<"])([^">]+)[">]', re.M)
 
 
 def room_folder(room):
-    return ROOT / room if room in ("fmu", "tools") else ROOT / "src" / room
+    return ROOT / room if room in ("fmu", "embedded", "tools") else ROOT / "src" / room
 
 
 def c_files(room):
@@ -77,14 +78,14 @@ def test_foreign_libraries_stay_in_their_rooms():
 def test_core_and_fmu_include_siblings_by_bare_name():
     """In an FMU all sources lie in one folder."""
     wrong = [f"{shown(file)} includes {name}"
-             for room in ("core", "fmu") for file in c_files(room)
+             for room in ("core", "fmu", "embedded") for file in c_files(room)
              for kind, name in INCLUDE.findall(file.read_text())
              if kind == '"' and "/" in name]
     assert not wrong
 
 
 INCLUDE_PATH = [ROOT / "src", ROOT / "src" / "core", ROOT / "fmu", ROOT / "fmu" / "example",
-                ROOT / "tools", Path(os.environ["GM_BINARY_DIR"]) / "share/gearmap/fmi2"]
+                ROOT / "embedded", ROOT / "tools", Path(os.environ["GM_BINARY_DIR"]) / "share/gearmap/fmi2"]
 
 
 def compile_alone(source, *options, standard="c11"):
@@ -190,7 +191,7 @@ def test_library_prefixes_its_names():
 
 
 SOURCES = ["*.c", "*.h", "*.def", "*.py", "*.sh", "*.cmake", "CMakeLists.txt"]
-FOLDERS = ["src", "fmu", "tools", "tests", "bench", "examples", "cmake"]
+FOLDERS = ["src", "fmu", "embedded", "tools", "tests", "bench", "examples", "cmake"]
 
 
 def all_sources():

@@ -122,7 +122,7 @@ static void write_text(const char *folder, const char *name, const char *text)
 static void *load(const char *folder, const char *tables)
 {
     static const char *const files[] = {"core/gm_reduced.h", "core/gm_interp.h",
-                                        "core/gm_real.h"};
+                                        "core/gm_real.h", "core/gm_config.h"};
     const char *source = "unit.c";
     char command[64], path[512];
     gm_compiler compiler;
@@ -133,7 +133,7 @@ static void *load(const char *folder, const char *tables)
         "#include \"gm_tables.h\"\n"
         "__attribute__((visibility(\"default\"))) const gm_reduced_map *map(void);\n"
         "const gm_reduced_map *map(void) { return &gm_tables_map; }\n");
-    for (int i = 0; i < 3; i++) {
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         snprintf(path, sizeof path, GM_SOURCE_DIR "/src/%s", files[i]);
         snprintf(command, sizeof command, "%s", strrchr(files[i], '/') + 1);
         char target[600];
@@ -153,7 +153,8 @@ static void *load(const char *folder, const char *tables)
 static void remove_all(const char *folder)
 {
     static const char *const names[] = {"gm_tables.h",  "unit.c",      "unit.so",
-                                        "gm_reduced.h", "gm_interp.h", "gm_real.h"};
+                                        "gm_reduced.h", "gm_interp.h", "gm_real.h",
+                                        "gm_config.h"};
     char path[512];
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         snprintf(path, sizeof path, "%s/%s", folder, names[i]);

@@ -101,7 +101,7 @@ def test_quantities_name_their_unit():
     (["verify", "a.yaml", "f.fmu", "--steady", "--points", "100000000"],
      "--points 100000000 is not between 1 and 10000000"),
     (["help", "check", "extra"], "help has no use for the argument 'extra'"),
-    (["bake", "m", "-o", "f", "--format", "elf"], "bake knows no format 'elf' (only fmu2)"),
+    (["bake", "m", "-o", "f", "--format", "elf"], "bake knows no format 'elf' (only fmu2, c)"),
     (["verify", "a.yaml", "f.fmu"],
      "verify needs --steady, --cycle CYCLE or both"),
     (["check", "a.yaml", "--gear", "0", "--speed", "1000", "--torque", "1"],
