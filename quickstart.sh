@@ -14,12 +14,15 @@ gm_build build -DCMAKE_BUILD_TYPE=Release -DGM_BUILD_TESTS=OFF -DGM_BUILD_BENCH=
   -DGM_PYTHON="$PWD/build/venv/bin/python"
 
 gm_say "reducing examples/dct7.yaml"
-build/gearmap reduce examples/dct7.yaml -o build/dct7.fmu --map build/dct7.map
+# also drives a car over ECE-15 with both gearsets, for the FMU's accuracy passport
+build/gearmap reduce examples/dct7.yaml -o build/dct7.fmu --map build/dct7.map \
+  --cycle ece15 >build/dct7.txt
+sed '/^cycle /,$d' build/dct7.txt
 
 gm_say "simulating build/dct7.fmu"
 build/venv/bin/python examples/simulate.py build/dct7.fmu build/dct7.csv
 
-gm_say "driving ECE-15 with the detailed and the reduced gearset"
-build/gearmap verify examples/dct7.yaml build/dct7.fmu --cycle ece15 --summary
+gm_say "a car on ECE-15 with the detailed and the reduced gearset"
+sed -n '/^cycle /,$p' build/dct7.txt
 
 gm_say "done in $((SECONDS - start)) s: build/dct7.fmu, build/dct7.map, build/dct7.csv"

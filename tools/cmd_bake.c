@@ -12,7 +12,7 @@
 #include <string.h>
 
 typedef struct arguments {
-    const char *map, *output, *format;
+    const char *map, *output, *format, *passport;
     gm_bake_settings bake;
     gm_bake_c_settings c;
     int json;
@@ -30,6 +30,10 @@ static const gm_option options[] = {
      .offset = offsetof(arguments, format),
      .help = "fmu2: FMI 2.0, Model Exchange and Co-Simulation; c: a folder of plain C "
              "for controllers and real-time rigs"},
+    {.kind = GM_OPTION_TEXT, .name = "passport", .value = "RESULTS.json[,...]",
+     .offset = offsetof(arguments, passport),
+     .help = "what gearmap verify --json printed about this component, for its accuracy "
+             "passport; default: what the map keeps"},
     GM_BAKE_OPTIONS(arguments),
     GM_BAKE_C_OPTIONS(arguments),
     GM_JSON_OPTION(arguments),
@@ -55,23 +59,35 @@ static void print_json(const void *result, gm_json *json)
 
 static const gm_result_form form = {print_text, print_json};
 
+/* Given results must fit; of those in the map the ones that fit are taken. */
+static gm_status get_results(const arguments *a, const gm_map *map, gm_results *results,
+                             gm_error *error)
+{
+    char guid[64];
+    if (a->passport)
+        return gm_results_read(a->passport, results, error);
+    gm_status status = gm_results_of_map(a->map, results, error);
+    if (status != GM_OK || results->n == 0)
+        return status;
+    status = gm_stage_guid(map, &a->bake, guid, error);
+    return status == GM_OK ? gm_results_keep_fitting(results, map, guid, error) : status;
+}
+
 static gm_status bake(const arguments *a, gm_error *error)
 {
     gm_map *map = NULL;
-    gm_map_error *errors = NULL;
-    int n_errors = 0;
+    gm_results results = {0, NULL};
     baked result = {.output = a->output};
     gm_status status = gm_file_check_output(a->output, a->map, error);
     if (status == GM_OK)
         status = gm_map_read(a->map, &map, error);
     if (status == GM_OK)
-        status = gm_map_get_errors(a->map, &n_errors, &errors, error);
+        status = get_results(a, map, &results, error);
     if (status == GM_OK)
-        status = gm_stage_bake(map, n_errors, errors, &a->bake, a->output, &result.stage,
-                               error);
+        status = gm_stage_bake(map, &results, &a->bake, a->output, &result.stage, error);
     if (status == GM_OK)
         status = gm_command_print(&form, a->json, &result, error);
-    gm_map_errors_free(n_errors, errors);
+    gm_results_clear(&results);
     gm_map_destroy(map);
     return status;
 }
@@ -83,6 +99,10 @@ static int run(const void *given)
     const int is_c = strcmp(a->format, "c") == 0;
     if (!is_c && strcmp(a->format, "fmu2") != 0) {
         fprintf(stderr, "gearmap: bake knows no format '%s' (only fmu2, c)\n", a->format);
+        return GM_EXIT_USAGE;
+    }
+    if (is_c && a->passport) {
+        fputs("gearmap: --passport is for FMUs\n", stderr);
         return GM_EXIT_USAGE;
     }
     if (!gm_stage_knows_interpolation(a->bake.interpolation) ||
@@ -98,7 +118,10 @@ static int run(const void *given)
 const gm_command gm_command_bake = {
     .name = "bake",
     .summary = "make the reduced component from a map",
-    .details = "The same map, options and compiler give the same bytes.",
+    .details =
+        "The same map, options and compiler give the same bytes. Measured results go "
+        "into extra/gearmap/passport.json and the documentation, and change nothing "
+        "else; those of another map or component are refused.",
     .options = options,
     .n_options = sizeof options / sizeof options[0],
     .size = sizeof(arguments),

@@ -5,8 +5,9 @@
  */
 #include "commands.h"
 
+#include "base/alloc.h"
 #include "files.h"
-#include "stages.h"
+#include "verified.h"
 
 #include <errno.h>
 #include <string.h>
@@ -17,6 +18,7 @@ typedef struct arguments {
     gm_sweep_settings sweep;
     gm_bake_settings bake;
     int points, seed, json;
+    const char *cycle, *vehicle;
 } arguments;
 
 // clang-format off
@@ -33,6 +35,13 @@ static const gm_option options[] = {
     GM_BAKE_OPTIONS(arguments),
     GM_POINTS_OPTION(arguments),
     GM_SEED_OPTION(arguments),
+    {.kind = GM_OPTION_TEXT, .name = "cycle", .value = "CYCLE",
+     .offset = offsetof(arguments, cycle),
+     .help = "drive a car over this cycle too, with both gearsets (see gearmap verify "
+             "--cycle); it takes some seconds per cycle"},
+    {.kind = GM_OPTION_TEXT, .name = "vehicle", .value = "FILE.yaml",
+     .offset = offsetof(arguments, vehicle),
+     .help = "with --cycle: the vehicle; default: a C-segment car"},
     GM_JSON_OPTION(arguments),
 };
 // clang-format on
@@ -43,6 +52,8 @@ typedef struct reduction {
     gm_sweep_stage sweep;
     gm_bake_stage bake;
     gm_verify_stage verify;
+    int drives; /* over a cycle, too */
+    gm_cycle_stage cycle;
     double start, elapsed; /* s */
 } reduction;
 
@@ -52,6 +63,10 @@ static void print_text(const void *result, FILE *out)
     gm_sweep_stage_print(&r->sweep, out);
     gm_bake_stage_print(&r->bake, r->output, out);
     gm_verify_stage_print_groups(&r->verify, out);
+    if (r->drives) {
+        fputc('\n', out);
+        gm_cycle_stage_print_table(&r->cycle, out);
+    }
     fprintf(out, "\ntotal   %8.2f s\n", r->elapsed);
 }
 
@@ -67,10 +82,23 @@ static void print_json(const void *result, gm_json *json)
     gm_json_object(json, "verify");
     gm_verify_stage_json(&r->verify, json);
     gm_json_end(json);
+    if (r->drives) {
+        gm_json_object(json, "cycle");
+        gm_cycle_stage_json(&r->cycle, json);
+        gm_json_end(json);
+    }
     gm_json_number(json, "elapsed_s", r->elapsed);
 }
 
 static const gm_result_form form = {print_text, print_json};
+
+static gm_cycle_settings drive_of(const arguments *a)
+{
+    return (gm_cycle_settings){.cycle = a->cycle,
+                               .vehicle = a->vehicle,
+                               .fidelity = GM_CYCLE_BOTH,
+                               .tolerance = GM_CYCLE_TOLERANCE};
+}
 
 /* Nothing is begun whose result could not be kept. */
 static gm_status check_before(const arguments *a, gm_error *error)
@@ -82,32 +110,61 @@ static gm_status check_before(const arguments *a, gm_error *error)
     if (status == GM_OK && a->map && gm_file_is_same(a->map, a->output))
         status = gm_fail(error, GM_ERR_IO, "%s: cannot be both the map and the component",
                          a->map);
+    if (status == GM_OK && a->cycle) {
+        const gm_cycle_settings drive = drive_of(a);
+        status = gm_stage_cycle_check(&drive, error);
+    }
     return status == GM_OK ? gm_file_find_share(share, error) : status;
+}
+
+/* What was measured, into the component's passport and the map. */
+static gm_status keep(const arguments *a, reduction *r, const gm_measured *measured,
+                      const char *name, gm_error *error)
+{
+    const gm_verified verified = {.measured = *measured,
+                                  .steady = &r->verify,
+                                  .cycle = r->drives ? &r->cycle : NULL};
+    char *text = NULL;
+    gm_status status = gm_verified_text(&verified, &text, error);
+    if (status != GM_OK)
+        return status;
+    const gm_bake_result result = {"the verification", text};
+    status = gm_bake_document(name, r->sweep.map, &r->bake.summary, 1, &result, error);
+    if (status == GM_OK && a->map)
+        status = gm_stage_keep(&r->verify, r->sweep.map, text, a->map, error);
+    gm_free(text);
+    if (status == GM_OK) /* the errors are in the archive now */
+        r->bake.summary.file_size = gm_file_size(name);
+    return status;
 }
 
 static gm_status verify(const arguments *a, reduction *r, const char *name,
                         gm_error *error)
 {
     gm_fmu *fmu = NULL;
+    gm_measured measured;
     gm_status status = gm_fmu_open(name, &fmu, error);
+    if (status == GM_OK)
+        status = gm_measured_read(fmu, &r->file, &measured, error);
     if (status == GM_OK)
         status =
             gm_stage_verify(r->file.plant, fmu, a->points, a->seed, &r->verify, error);
     gm_fmu_close(fmu);
-    if (status == GM_OK)
-        status =
-            gm_stage_keep_errors(&r->verify, &r->bake, r->sweep.map, name, a->map, error);
-    if (status == GM_OK) /* the errors are in the archive now */
-        r->bake.summary.file_size = gm_file_size(name);
-    return status;
+    if (status == GM_OK && a->cycle) {
+        const gm_cycle_settings drive = drive_of(a);
+        status = gm_stage_cycle(&r->file, name, &drive, &r->cycle, error);
+        r->drives = status == GM_OK;
+    }
+    return status == GM_OK ? keep(a, r, &measured, name, error) : status;
 }
 
 /* `name` is this process's own file; the last of several reductions wins. */
 static gm_status bake_and_verify(const arguments *a, reduction *r, const char *name,
                                  gm_error *error)
 {
+    const gm_results none = {0, NULL};
     gm_status status =
-        gm_stage_bake(r->sweep.map, 0, NULL, &a->bake, name, &r->bake, error);
+        gm_stage_bake(r->sweep.map, &none, &a->bake, name, &r->bake, error);
     if (status != GM_OK)
         return status;
     status = verify(a, r, name, error);
@@ -143,10 +200,15 @@ static int run(const void *given)
     reduction r;
     if (!gm_stage_knows_interpolation(a->bake.interpolation))
         return GM_EXIT_USAGE;
+    if (a->vehicle && !a->cycle) {
+        fputs("gearmap: --vehicle needs --cycle\n", stderr);
+        return GM_EXIT_USAGE;
+    }
     memset(&r, 0, sizeof r);
     r.output = a->output;
     r.start = gm_stage_clock();
     gm_status status = reduce(a, &r, &error);
+    gm_stage_cycle_clear(&r.cycle);
     gm_stage_verify_clear(&r.verify);
     gm_stage_sweep_clear(&r.sweep);
     gm_gearset_file_close(&r.file);
@@ -158,7 +220,8 @@ const gm_command gm_command_reduce = {
     .summary = "sweep, bake and verify: from a description to an FMU",
     .details =
         "Prints the time of each stage, the sizes and how far the component is from "
-        "the detailed model at random points. A failed stage leaves no output; "
+        "the detailed model at random points, and puts the errors into the component's "
+        "accuracy passport. A failed stage leaves no output; "
         "finished files stay when the result cannot be printed.",
     .options = options,
     .n_options = sizeof options / sizeof options[0],

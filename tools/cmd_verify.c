@@ -4,12 +4,10 @@
  */
 #include "commands.h"
 
-#include "cycle_stage.h"
 #include "files.h"
-#include "stages.h"
+#include "verified.h"
 
 #include <math.h>
-#include <stdbool.h>
 #include <string.h>
 
 #define KELVIN 273.15
@@ -61,34 +59,33 @@ static const gm_option options[] = {
 };
 // clang-format on
 
-typedef struct verified {
+typedef struct comparison {
     const arguments *asked;
-    gm_verify_stage stage;
+    gm_verify_stage steady;
     gm_cycle_stage cycle;
-    bool same_description;
-} verified;
+    gm_measured measured;
+} comparison;
 
 static void print_text(const void *result, FILE *out)
 {
-    const verified *v = result;
-    if (v->asked->steady)
-        gm_verify_stage_print(&v->stage, out);
-    if (v->asked->steady && v->asked->drive.cycle)
+    const comparison *c = result;
+    if (c->asked->steady)
+        gm_verify_stage_print(&c->steady, out);
+    if (c->asked->steady && c->asked->drive.cycle)
         fputc('\n', out);
-    if (v->asked->drive.cycle && v->asked->summary)
-        gm_cycle_stage_print_table(&v->cycle, out);
-    else if (v->asked->drive.cycle)
-        gm_cycle_stage_print(&v->cycle, out);
+    if (c->asked->drive.cycle && c->asked->summary)
+        gm_cycle_stage_print_table(&c->cycle, out);
+    else if (c->asked->drive.cycle)
+        gm_cycle_stage_print(&c->cycle, out);
 }
 
 static void print_json(const void *result, gm_json *json)
 {
-    const verified *v = result;
-    gm_json_bool(json, "same_description", v->same_description);
-    if (v->asked->steady)
-        gm_verify_stage_json(&v->stage, json);
-    if (v->asked->drive.cycle)
-        gm_cycle_stage_json(&v->cycle, json);
+    const comparison *c = result;
+    const gm_verified verified = {.measured = c->measured,
+                                  .steady = c->asked->steady ? &c->steady : NULL,
+                                  .cycle = c->asked->drive.cycle ? &c->cycle : NULL};
+    gm_verified_json(&verified, json);
 }
 
 static const gm_result_form form = {print_text, print_json};
@@ -107,45 +104,49 @@ static gm_status choose_temperature(const arguments *a, double made_for,
 }
 
 /* A description may have changed in a comment only: worth a note, no reason to refuse. */
-static bool compare_descriptions(const arguments *a, const gm_fmu_origin *origin,
-                                 const gm_gearset_file *file)
+static void note_another_description(const arguments *a, const gm_measured *measured)
 {
-    const char *made_from = origin->description_sha256;
-    if (made_from && strcmp(made_from, file->description->sha256) == 0)
-        return true;
+    if (gm_measured_same(measured))
+        return;
     fprintf(stderr,
-            made_from
+            *measured->made_from_sha256
                 ? "gearmap: note: %s was made from another description than %s, or from "
                   "another version of it\n"
                 : "gearmap: note: %s does not say whether it was made from %s\n",
             a->fmu, a->description);
-    return false;
+}
+
+static gm_status compare(const arguments *a, gm_fmu *fmu, const gm_gearset_file *file,
+                         comparison *c, gm_error *error)
+{
+    gm_status status = gm_measured_read(fmu, file, &c->measured, error);
+    if (status == GM_OK && a->steady)
+        status = gm_stage_verify(file->plant, fmu, a->points, a->seed, &c->steady, error);
+    if (status == GM_OK && a->drive.cycle)
+        status = gm_stage_cycle(file, a->fmu, &a->drive, &c->cycle, error);
+    if (status == GM_OK && a->drive.trace)
+        status = gm_cycle_stage_trace(&c->cycle, a->drive.trace, error);
+    return status;
 }
 
 static gm_status verify_fmu(const arguments *a, gm_fmu *fmu, gm_error *error)
 {
     const gm_fmu_origin origin = gm_fmu_read_origin(fmu);
     gm_gearset_file file;
-    verified result = {.asked = a};
+    comparison c = {.asked = a};
     double temperature = (double)NAN;
     gm_status status = choose_temperature(a, origin.oil_temperature, &temperature, error);
     if (status == GM_OK)
         status = gm_gearset_file_open(a->description, temperature, &file, error);
     if (status != GM_OK)
         return status;
-    if (a->steady)
-        status =
-            gm_stage_verify(file.plant, fmu, a->points, a->seed, &result.stage, error);
-    if (status == GM_OK && a->drive.cycle)
-        status = gm_stage_cycle(&file, a->fmu, &a->drive, &result.cycle, error);
-    if (status == GM_OK && a->drive.trace)
-        status = gm_cycle_stage_trace(&result.cycle, a->drive.trace, error);
+    status = compare(a, fmu, &file, &c, error);
     if (status == GM_OK) {
-        result.same_description = compare_descriptions(a, &origin, &file);
-        status = gm_command_print(&form, a->json, &result, error);
+        note_another_description(a, &c.measured);
+        status = gm_command_print(&form, a->json, &c, error);
     }
-    gm_stage_cycle_clear(&result.cycle);
-    gm_stage_verify_clear(&result.stage);
+    gm_stage_cycle_clear(&c.cycle);
+    gm_stage_verify_clear(&c.steady);
     gm_gearset_file_close(&file);
     return status;
 }

@@ -122,6 +122,7 @@ static void reduced_json(const gm_cycle_stage *stage, const gm_cycle_run *run,
                          gm_json *json)
 {
     gm_json_text(json, "fidelity", gm_fidelity_name(run->fidelity));
+    gm_json_number(json, "communication_step_s", run->communication_step);
     record_json(stage, run->record, json);
 }
 
@@ -168,6 +169,8 @@ void gm_cycle_stage_json(const gm_cycle_stage *stage, gm_json *json)
     gm_json_text(json, "cycle", stage->cycle->name);
     gm_json_number(json, "duration_s", gm_cycle_duration(stage->cycle));
     gm_json_number(json, "distance_m", gm_cycle_distance(stage->cycle));
+    gm_json_text(json, "vehicle_sha256",
+                 *stage->vehicle_sha256 ? stage->vehicle_sha256 : NULL);
     gm_json_number(json, "tolerance", stage->tolerance);
     gm_json_object(json, "detailed");
     record_json(stage, stage->detailed, json);

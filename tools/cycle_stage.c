@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 #include "cycle_stage.h"
 
+#include "base/sha256.h"
 #include "progress.h"
 
 #include <math.h>
@@ -108,6 +109,7 @@ static gm_status drive_component(const gm_trip_parts *common, const char *fmu,
     gm_trip_parts parts = *common;
     parts.gearset = &dynamics;
     run->fidelity = fidelity;
+    run->communication_step = (double)NAN;
     if (dynamics.n_paths != stage->n_paths)
         status = gm_fail(error, GM_ERR_MODEL, "%s: has %d input flanges, not %d", fmu,
                          dynamics.n_paths, stage->n_paths);
@@ -126,7 +128,7 @@ static gm_status drive_component(const gm_trip_parts *common, const char *fmu,
 
 static int wants(const gm_cycle_settings *settings, gm_fmu_fidelity fidelity)
 {
-    return strcmp(settings->fidelity, "both") == 0 ||
+    return strcmp(settings->fidelity, GM_CYCLE_BOTH) == 0 ||
            strcmp(settings->fidelity, gm_fidelity_name(fidelity)) == 0;
 }
 
@@ -158,11 +160,31 @@ static gm_status open_cycle(const char *name, gm_cycle **cycle, gm_error *error)
                                            : gm_cycle_named(name, cycle, error);
 }
 
+static gm_status open_vehicle(const char *name, gm_vehicle *vehicle, char sha256[65],
+                              gm_error *error)
+{
+    *vehicle = gm_vehicle_reference();
+    gm_status status = name ? gm_vehicle_read(name, vehicle, error) : GM_OK;
+    return status == GM_OK && name ? gm_sha256_file(name, sha256, error) : status;
+}
+
+gm_status gm_stage_cycle_check(const gm_cycle_settings *settings, gm_error *error)
+{
+    gm_cycle *cycle = NULL;
+    gm_vehicle vehicle;
+    char sha256[65];
+    gm_status status = open_cycle(settings->cycle, &cycle, error);
+    if (status == GM_OK)
+        status = open_vehicle(settings->vehicle, &vehicle, sha256, error);
+    gm_cycle_destroy(cycle);
+    return status;
+}
+
 gm_status gm_stage_cycle(const gm_gearset_file *file, const char *fmu,
                          const gm_cycle_settings *settings, gm_cycle_stage *stage,
                          gm_error *error)
 {
-    gm_vehicle vehicle = gm_vehicle_reference();
+    gm_vehicle vehicle;
     gm_transmission transmission;
     double forward = 1.0;
     memset(stage, 0, sizeof *stage);
@@ -171,8 +193,8 @@ gm_status gm_stage_cycle(const gm_gearset_file *file, const char *fmu,
     for (int p = 0; p < stage->n_paths; p++)
         stage->path_name[p] = file->plant->info.path[p].name;
     gm_status status = open_cycle(settings->cycle, &stage->cycle, error);
-    if (status == GM_OK && settings->vehicle)
-        status = gm_vehicle_read(settings->vehicle, &vehicle, error);
+    if (status == GM_OK)
+        status = open_vehicle(settings->vehicle, &vehicle, stage->vehicle_sha256, error);
     if (status == GM_OK)
         status = list_gears(file->plant, &transmission, &forward, error);
     if (status == GM_OK)

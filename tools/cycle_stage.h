@@ -12,6 +12,8 @@
 #include "vehicle/gm_compare.h"
 
 enum { GM_CYCLE_FIDELITIES = 2 };
+#define GM_CYCLE_BOTH "both"
+#define GM_CYCLE_TOLERANCE 1e-6
 
 typedef struct gm_cycle_settings {
     const char *cycle;    /* name of a built-in one, or of a file *.csv */
@@ -24,6 +26,7 @@ typedef struct gm_cycle_settings {
 /** One drive with the component. */
 typedef struct gm_cycle_run {
     gm_fmu_fidelity fidelity;
+    double communication_step; /* s, of Co-Simulation; NAN: Model Exchange */
     gm_record *record;
     gm_comparison comparison;
 } gm_cycle_run;
@@ -33,11 +36,16 @@ typedef struct gm_cycle_stage {
     gm_gear_plan *plan;
     int n_paths;
     const char *path_name[GM_MAX_INPUT_PATHS];
+    char vehicle_sha256[65]; /* of its file; empty: the reference */
     double tolerance;
     gm_record *detailed;
     int n_runs;
     gm_cycle_run run[GM_CYCLE_FIDELITIES];
 } gm_cycle_stage;
+
+/** Are cycle and vehicle there and in order? Errors of reading them. */
+GM_NODISCARD gm_status gm_stage_cycle_check(const gm_cycle_settings *settings,
+                                            gm_error *error);
 
 /** Drive and compare, with a progress bar. On failure nothing is held. */
 GM_NODISCARD gm_status gm_stage_cycle(const gm_gearset_file *file, const char *fmu,

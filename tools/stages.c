@@ -100,7 +100,28 @@ bool gm_stage_knows_interpolation(const char *name)
     return false;
 }
 
-gm_status gm_stage_bake(const gm_map *map, int n_errors, const gm_map_error *errors,
+static gm_bake_options options_of(const gm_bake_settings *settings, const char *share)
+{
+    return (gm_bake_options){.share = share,
+                             .compiler = settings->compiler,
+                             .interpolation =
+                                 strcmp(settings->interpolation, "monotone") == 0
+                                     ? GM_INTERPOLATION_MONOTONE
+                                     : GM_INTERPOLATION_LINEAR};
+}
+
+gm_status gm_stage_guid(const gm_map *map, const gm_bake_settings *settings,
+                        char guid[64], gm_error *error)
+{
+    char share[GM_PATH_SIZE];
+    gm_status status = gm_file_find_share(share, error);
+    if (status != GM_OK)
+        return status;
+    const gm_bake_options options = options_of(settings, share);
+    return gm_bake_guid(map, &options, guid, error);
+}
+
+gm_status gm_stage_bake(const gm_map *map, const gm_results *results,
                         const gm_bake_settings *settings, const char *path,
                         gm_bake_stage *stage, gm_error *error)
 {
@@ -110,14 +131,9 @@ gm_status gm_stage_bake(const gm_map *map, int n_errors, const gm_map_error *err
     gm_status status = gm_file_find_share(share, error);
     if (status != GM_OK)
         return status;
-    const gm_bake_options options = {.share = share,
-                                     .compiler = settings->compiler,
-                                     .interpolation =
-                                         strcmp(settings->interpolation, "monotone") == 0
-                                             ? GM_INTERPOLATION_MONOTONE
-                                             : GM_INTERPOLATION_LINEAR,
-                                     .n_errors = n_errors,
-                                     .errors = errors};
+    gm_bake_options options = options_of(settings, share);
+    options.n_results = results->n;
+    options.results = results->list;
     gm_progress progress;
     gm_progress_begin(&progress);
     status = gm_bake_fmu2(map, &options, path, &stage->summary, error);
@@ -173,9 +189,8 @@ static void to_map_error(gm_verify_group group, const gm_verify_case *c, int n_p
                         .worst_torque = c->worst_torque};
 }
 
-gm_status gm_stage_keep_errors(const gm_verify_stage *stage, const gm_bake_stage *bake,
-                               const gm_map *map, const char *fmu, const char *map_path,
-                               gm_error *error)
+gm_status gm_stage_keep(const gm_verify_stage *stage, const gm_map *map,
+                        const char *result, const char *map_path, gm_error *error)
 {
     const gm_verify_result *r = &stage->result;
     int n = 0;
@@ -188,9 +203,12 @@ gm_status gm_stage_keep_errors(const gm_verify_stage *stage, const gm_bake_stage
     for (int g = 0; g < GM_VERIFY_GROUPS; g++)
         for (int i = 0; i < r->n_cases[g]; i++)
             to_map_error((gm_verify_group)g, &r->cases[g][i], map->n_paths, &errors[n++]);
-    gm_status status = gm_bake_document(fmu, map, &bake->summary, n, errors, error);
-    if (status == GM_OK && map_path)
-        status = gm_map_put_errors(map_path, (long long)r->seed, n, errors, error);
+    const gm_map_verification verification = {.seed = (long long)r->seed,
+                                              .n_errors = n,
+                                              .errors = errors,
+                                              .n_results = 1,
+                                              .results = &result};
+    gm_status status = gm_map_put_verification(map_path, &verification, error);
     gm_free(errors);
     return status;
 }

@@ -10,6 +10,7 @@
 #include "gearset_file.h"
 #include "json.h"
 #include "plant/gm_fmu.h"
+#include "results.h"
 #include "sweep/gm_sweep.h"
 #include "sweep/gm_verify.h"
 
@@ -54,23 +55,24 @@ typedef struct gm_bake_settings {
  *  error. */
 bool gm_stage_knows_interpolation(const char *name);
 
-/** Bake map into path. errors: for the documentation, n_errors may be 0. */
-GM_NODISCARD gm_status gm_stage_bake(const gm_map *map, int n_errors,
-                                     const gm_map_error *errors,
+/** Bake map into path, with results for the passport (there may be none). */
+GM_NODISCARD gm_status gm_stage_bake(const gm_map *map, const gm_results *results,
                                      const gm_bake_settings *settings, const char *path,
                                      gm_bake_stage *stage, gm_error *error);
+
+/** GUID that baking the map so gives. */
+GM_NODISCARD gm_status gm_stage_guid(const gm_map *map, const gm_bake_settings *settings,
+                                     char guid[64], gm_error *error);
 
 /** Compare the FMU with the plant. */
 GM_NODISCARD gm_status gm_stage_verify(const gm_plant *plant, gm_fmu *fmu, int points,
                                        int seed, gm_verify_stage *stage, gm_error *error);
 void gm_stage_verify_clear(gm_verify_stage *stage);
 
-/** Write the errors of a verification into the documentation of the FMU that was baked
- *  and, unless map_path is NULL, into the map's file. */
-GM_NODISCARD gm_status gm_stage_keep_errors(const gm_verify_stage *stage,
-                                            const gm_bake_stage *bake, const gm_map *map,
-                                            const char *fmu, const char *map_path,
-                                            gm_error *error);
+/** Write the errors and the result of a verification into the map's file. */
+GM_NODISCARD gm_status gm_stage_keep(const gm_verify_stage *stage, const gm_map *map,
+                                     const char *result, const char *map_path,
+                                     gm_error *error);
 
 /** Members of the stage's JSON object. */
 void gm_sweep_stage_json(const gm_sweep_stage *stage, gm_json *json);

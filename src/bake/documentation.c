@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 #include "bake/documentation.h"
 
+#include "bake/accuracy.h"
 #include "bake/page.h"
 #include "bake/picture.h"
 #include "bake/variables.h"
 
-#include <math.h>
 #include <string.h>
 
 #define RPM 9.54929658551372 /* per rad/s */
@@ -112,64 +112,6 @@ static void range(gm_buffer *page, const gm_document *d)
                    "is refused.</p>\n");
 }
 
-/* ---- accuracy ---- */
-
-typedef struct accuracy {
-    const char *kind, *words;
-    int points;
-    double max, squares; /* of the largest loss of each case */
-} accuracy;
-
-static accuracy sum_up(const gm_document *d, const char *kind, const char *words)
-{
-    accuracy a = {.kind = kind, .words = words};
-    for (int i = 0; i < d->n_errors; i++) {
-        const gm_map_error *e = &d->errors[i];
-        if (strcmp(e->kind, kind) != 0 || !(e->largest > 0))
-            continue;
-        a.points += e->points;
-        a.max = e->max / e->largest > a.max ? e->max / e->largest : a.max;
-        a.squares += e->points * (e->rms / e->largest) * (e->rms / e->largest);
-    }
-    return a;
-}
-
-static void accuracy_row(gm_buffer *page, const accuracy *a)
-{
-    if (a->points == 0)
-        return;
-    gm_buffer_text(page, "<tr><td>%s</td><td class=\"n\">%d</td>", a->words, a->points);
-    gm_page_number(page, "<td class=\"n\">", 100 * a->max, 3, " %</td>");
-    gm_page_number(page, "<td class=\"n\">", 100 * sqrt(a->squares / a->points), 3,
-                   " %</td></tr>\n");
-}
-
-static void accuracies(gm_buffer *page, const gm_document *d)
-{
-    static const char *const kinds[][2] = {
-        {"single", "loss, one path engaged"},
-        {"preselected", "loss, with a preselected gear"},
-        {"both_loaded", "loss, both paths loaded"},
-        {"drag", "drag of a shaft in neutral"},
-        {"reaction", "its reaction on the output"},
-    };
-    gm_page_heading(page, "Measured accuracy");
-    if (d->n_errors == 0) {
-        gm_buffer_text(page, "<p>Not measured when this file was made.</p>\n");
-        return;
-    }
-    gm_buffer_text(page,
-                   "<p>This FMU against the detailed model at random points off the "
-                   "grid of the tables, relative to the largest value of each gear "
-                   "and direction of rotation:</p>\n");
-    gm_page_table(page, "quantity|>points|>largest error|>RMS");
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
-        accuracy a = sum_up(d, kinds[i][0], kinds[i][1]);
-        accuracy_row(page, &a);
-    }
-    gm_page_table_end(page);
-}
-
 /* ---- variables ---- */
 
 static void start_value(gm_buffer *page, const gm_map *map, scalar s)
@@ -261,7 +203,7 @@ void gm_documentation_write(const gm_document *d, gm_buffer *page)
     usage(page);
     gear_table(page, d->map);
     range(page, d);
-    accuracies(page, d);
+    gm_accuracy_write(d->passport, page);
     variables_of(page, d->map, CAUSALITY_INPUT, "Inputs");
     variables_of(page, d->map, CAUSALITY_OUTPUT, "Outputs");
     variables_of(page, d->map, CAUSALITY_PARAMETER, "Parameters");

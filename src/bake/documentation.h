@@ -7,15 +7,13 @@
 #ifndef DOCUMENTATION_H
 #define DOCUMENTATION_H
 
-#include "bake/buffer.h"
-#include "map/gm_map_file.h"
+#include "bake/passport.h"
 
 typedef struct gm_document {
     const gm_map *map;
     const char *guid;
     int monotone; /* interpolation */
-    int n_errors; /* 0: not measured */
-    const gm_map_error *errors;
+    const gm_passport *passport;
 } gm_document;
 
 /** Append the whole page. Memory failures are in buffer->failed. */

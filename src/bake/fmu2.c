@@ -5,16 +5,17 @@
  *
  *   binaries/linux64/<name>.so   documentation/index.html, licenses/license.txt
  *   modelDescription.xml         model.png   sources/   extra/gearmap/<name>.map
+ *   extra/gearmap/passport.json
  *
  * The GUID is a SHA-256 over the description and the tables (with an empty GUID in both),
- * in the shape of a UUID.
+ * in the shape of a UUID. So what is measured on the FMU can be put into it afterwards.
  */
 #include "bake/gm_bake.h"
 
 #include "bake/compile.h"
-#include "bake/documentation.h"
 #include "bake/model_description.h"
 #include "bake/package.h"
+#include "bake/papers.h"
 #include "bake/picture.h"
 #include "bake/tables.h"
 #include "base/alloc.h"
@@ -30,7 +31,6 @@
 #include <unistd.h>
 
 #define IDENTIFIER_SIZE 64
-#define DOCUMENTATION "documentation/index.html"
 
 /* What the steps of one bake share. */
 typedef struct job {
@@ -40,9 +40,11 @@ typedef struct job {
     const char *target;
     gm_compiler compiler;
     gm_package package;
+    gm_passport passport;
     char identifier[IDENTIFIER_SIZE];
     char guid[48];
     long library_size;
+    char library_sha256[GM_SHA256_TEXT];
     mode_t rights; /* of a new file */
     gm_error *error;
 } job;
@@ -163,18 +165,30 @@ static gm_status make_guid(job *j)
     return status;
 }
 
-/* documentation/index.html; j->guid is known. */
-static gm_status add_documentation(job *j)
+static void summarise(const job *j, gm_bake_summary *summary)
 {
-    const gm_document document = {.map = j->map,
-                                  .guid = j->guid,
-                                  .monotone = j->options->interpolation ==
-                                              GM_INTERPOLATION_MONOTONE,
-                                  .n_errors = j->options->n_errors,
-                                  .errors = j->options->errors};
-    gm_buffer page = {0};
-    gm_documentation_write(&document, &page);
-    return gm_package_add(&j->package, DOCUMENTATION, &page, j->error);
+    *summary = (gm_bake_summary){.library_size = j->library_size,
+                                 .interpolation = j->options->interpolation};
+    snprintf(summary->compiler, sizeof summary->compiler, "%.255s", j->compiler.path);
+    snprintf(summary->guid, sizeof summary->guid, "%s", j->guid);
+    snprintf(summary->library_sha256, sizeof summary->library_sha256, "%s",
+             j->library_sha256);
+}
+
+/* The library is there: the passport names its hash. */
+static gm_status add_papers(job *j)
+{
+    gm_bake_summary summary;
+    summarise(j, &summary);
+    gm_papers papers = gm_papers_write(j->map, &summary, &j->passport);
+    gm_status status =
+        gm_package_add(&j->package, GM_PASSPORT, &papers.passport, j->error);
+    if (status == GM_OK)
+        status = gm_package_add(&j->package, GM_DOCUMENTATION, &papers.page, j->error);
+    gm_buffer_clear(&papers.passport);
+    gm_buffer_clear(&papers.page);
+    gm_package_sort(&j->package);
+    return status;
 }
 
 static gm_status add_picture(job *j)
@@ -206,8 +220,6 @@ static gm_status add_texts(job *j)
 {
     gm_buffer description = {0}, tables = {0};
     gm_status status = make_texts(j, &description, &tables);
-    if (status == GM_OK)
-        status = add_documentation(j);
     if (status == GM_OK)
         status =
             gm_package_add(&j->package, "modelDescription.xml", &description, j->error);
@@ -249,6 +261,8 @@ static gm_status compile_in(job *j, const char *folder)
     snprintf(path, sizeof path, "%s/%s", folder, library);
     snprintf(entry, sizeof entry, "binaries/" GM_FMI2_PLATFORM "/%s", library);
     if (status == GM_OK)
+        status = gm_sha256_file(path, j->library_sha256, j->error);
+    if (status == GM_OK)
         status = gm_package_add_file(&j->package, entry, path, j->error);
     if (status == GM_OK)
         j->library_size = (long)j->package.files[j->package.n - 1].content.size;
@@ -270,14 +284,21 @@ static gm_status add_library(job *j)
     return status;
 }
 
-static gm_status build_package(job *j)
+static gm_status begin_package(job *j)
 {
     gm_status status = check_names(j);
     if (status == GM_OK)
         status = add_sources(j);
     gm_package_sort(&j->package);
+    return status == GM_OK ? make_guid(j) : status;
+}
+
+static gm_status build_package(job *j)
+{
+    gm_status status = begin_package(j);
     if (status == GM_OK)
-        status = make_guid(j);
+        status = gm_passport_read(j->options->n_results, j->options->results, j->map,
+                                  j->guid, &j->passport, j->error);
     if (status == GM_OK)
         status = add_texts(j);
     if (status == GM_OK)
@@ -286,7 +307,7 @@ static gm_status build_package(job *j)
         status = add_map(j);
     if (status == GM_OK)
         status = add_library(j);
-    return status;
+    return status == GM_OK ? add_papers(j) : status;
 }
 
 /* A new file beside the target, with the rights of any new file; -1 when there cannot be
@@ -335,15 +356,23 @@ static gm_status put_in_place(const job *j, const char *part)
     return GM_OK;
 }
 
-static void summarise(const job *j, gm_bake_summary *summary)
+/* The tables as they will be baked. */
+static gm_status make_view(job *j, gm_map_view **view)
 {
-    struct stat info;
-    *summary = (gm_bake_summary){.library_size = j->library_size,
-                                 .interpolation = j->options->interpolation};
-    if (stat(j->target, &info) == 0)
-        summary->file_size = (long)info.st_size;
-    snprintf(summary->compiler, sizeof summary->compiler, "%.255s", j->compiler.path);
-    snprintf(summary->guid, sizeof summary->guid, "%s", j->guid);
+    gm_status status = gm_map_view_create(j->map, view, j->error);
+    if (status != GM_OK)
+        return status;
+    if (j->options->interpolation == GM_INTERPOLATION_MONOTONE)
+        gm_map_view_make_monotone(*view);
+    j->reduced = gm_map_view_reduced(*view);
+    return GM_OK;
+}
+
+static void end_job(job *j, gm_map_view *view)
+{
+    gm_map_view_destroy(view);
+    gm_passport_clear(&j->passport);
+    gm_package_clear(&j->package);
 }
 
 gm_status gm_bake_fmu2(const gm_map *map, const gm_bake_options *options,
@@ -351,6 +380,7 @@ gm_status gm_bake_fmu2(const gm_map *map, const gm_bake_options *options,
 {
     job j = {.map = map, .options = options, .target = path, .error = error};
     gm_map_view *view = NULL;
+    struct stat info;
     char part[4096] = "";
     make_identifier(map->name, j.identifier);
     gm_status status = reserve_place(&j, part, sizeof part);
@@ -358,35 +388,32 @@ gm_status gm_bake_fmu2(const gm_map *map, const gm_bake_options *options,
     if (status == GM_OK)
         status = gm_compiler_find(options->compiler, &j.compiler, error);
     if (status == GM_OK)
-        status = gm_map_view_create(map, &view, error);
-    if (status == GM_OK) {
-        if (options->interpolation == GM_INTERPOLATION_MONOTONE)
-            gm_map_view_make_monotone(view);
-        j.reduced = gm_map_view_reduced(view);
+        status = make_view(&j, &view);
+    if (status == GM_OK)
         status = build_package(&j);
-    }
     if (status == GM_OK)
         status = put_in_place(&j, part);
     if (status != GM_OK && reserved)
         (void)unlink(part);
-    if (status == GM_OK && summary)
+    if (status == GM_OK && summary) {
         summarise(&j, summary);
-    gm_map_view_destroy(view);
-    gm_package_clear(&j.package);
+        summary->file_size = stat(path, &info) == 0 ? (long)info.st_size : 0;
+    }
+    end_job(&j, view);
     return status;
 }
 
-gm_status gm_bake_document(const char *path, const gm_map *map,
-                           const gm_bake_summary *summary, int n_errors,
-                           const gm_map_error *errors, gm_error *error)
+gm_status gm_bake_guid(const gm_map *map, const gm_bake_options *options, char guid[64],
+                       gm_error *error)
 {
-    const gm_document document = {.map = map,
-                                  .guid = summary->guid,
-                                  .monotone =
-                                      summary->interpolation == GM_INTERPOLATION_MONOTONE,
-                                  .n_errors = n_errors,
-                                  .errors = errors};
-    gm_buffer page = {0};
-    gm_documentation_write(&document, &page);
-    return gm_package_replace(path, DOCUMENTATION, &page, error);
+    job j = {.map = map, .options = options, .error = error};
+    gm_map_view *view = NULL;
+    make_identifier(map->name, j.identifier);
+    gm_status status = make_view(&j, &view);
+    if (status == GM_OK)
+        status = begin_package(&j);
+    if (status == GM_OK)
+        snprintf(guid, 64, "%s", j.guid);
+    end_job(&j, view);
+    return status;
 }

@@ -176,7 +176,7 @@ static bool add_entry(zip_t *zip, const gm_package_file *file)
 static bool replace_entry(zip_t *zip, const char *name, const gm_buffer *content)
 {
     zip_int64_t index = zip_name_locate(zip, name, 0);
-    zip_source_t *source = index < 0 ? NULL : source_of(zip, content);
+    zip_source_t *source = index < 0 || content->failed ? NULL : source_of(zip, content);
     if (!source)
         return false;
     if (zip_file_replace(zip, (zip_uint64_t)index, source, ZIP_FL_ENC_UTF_8) < 0) {
@@ -208,16 +208,19 @@ gm_status gm_package_write(const gm_package *package, const char *path, gm_error
     return close_archive(zip, good, path, error);
 }
 
-gm_status gm_package_replace(const char *path, const char *name, gm_buffer *content,
-                             gm_error *error)
+gm_status gm_package_replace(const char *path, int n, const char *const *names,
+                             gm_buffer *const *contents, gm_error *error)
 {
     struct stat info;
     int code;
     bool known = stat(path, &info) == 0;
     zip_t *zip = zip_open(path, 0, &code);
-    bool good = known && zip && !content->failed && replace_entry(zip, name, content);
+    bool good = known && zip;
+    for (int i = 0; good && i < n; i++)
+        good = replace_entry(zip, names[i], contents[i]);
     gm_status status = close_archive(zip, good, path, error);
-    gm_buffer_clear(content);
+    for (int i = 0; i < n; i++)
+        gm_buffer_clear(contents[i]);
     /* the archive library replaces the file by one with rights of its own choice */
     if (status == GM_OK && chmod(path, info.st_mode & 0777) != 0)
         status =

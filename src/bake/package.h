@@ -43,10 +43,11 @@ GM_NODISCARD gm_status gm_package_extract(const gm_package *package, const char 
 GM_NODISCARD gm_status gm_package_write(const gm_package *package, const char *path,
                                         gm_error *error);
 
-/** Replace one file of the archive at path; content is moved, also on failure. On failure
+/** Replace n files of the archive at path; contents are moved, also on failure. On failure
  *  the archive is as it was. GM_ERR_IO. */
-GM_NODISCARD gm_status gm_package_replace(const char *path, const char *name,
-                                          gm_buffer *content, gm_error *error);
+GM_NODISCARD gm_status gm_package_replace(const char *path, int n,
+                                          const char *const *names,
+                                          gm_buffer *const *contents, gm_error *error);
 
 void gm_package_clear(gm_package *package);
 

@@ -14,6 +14,7 @@ static const char style[] =
     "h1{font-size:1.7rem;line-height:1.25;margin:.3em 0}"
     "h2{font-size:1.2rem;margin:2em 0 .5em;border-bottom:1px solid var(--line);"
     "padding-bottom:.2em}"
+    "h3{font-size:1rem;margin:1.6em 0 .3em}"
     ".lead,.caption{color:var(--soft)}";
 static const char more_style[] =
     ".figure{float:right;width:15.2rem;max-width:45%;margin:0 0 1rem 1.5rem}"

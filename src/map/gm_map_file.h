@@ -40,16 +40,27 @@ typedef struct gm_map_error {
     double worst_speed, worst_torque; /* where the largest error is [rad/s, N.m] */
 } gm_map_error;
 
-/** Write the measured errors into a finished map's file (table `verification`), in place
- *  of any that are there. Map and content hash stay as they are. */
-GM_NODISCARD gm_status gm_map_put_errors(const char *path, long long seed, int n,
-                                         const gm_map_error *errors, gm_error *error);
+/** What was measured on the component that was made from a map. */
+typedef struct gm_map_verification {
+    long long seed; /* of the points */
+    int n_errors;
+    const gm_map_error *errors; /* [n_errors] */
+    int n_results;
+    const char *const *results; /* [n_results] as `gearmap verify --json` prints them */
+} gm_map_verification;
 
-/** The measured errors in a map's file: *errors[*n], NULL and 0 when there are none. Free
- *  with gm_map_errors_free. GM_ERR_IO, GM_ERR_FORMAT, GM_ERR_MEMORY. */
-GM_NODISCARD gm_status gm_map_get_errors(const char *path, int *n, gm_map_error **errors,
-                                         gm_error *error);
-void gm_map_errors_free(int n, gm_map_error *errors);
+/** Write what was measured into a finished map's file (tables `verification`, `result`),
+ *  in place of what is there, all of it or nothing. Map and content hash stay as they
+ *  are. GM_ERR_IO, GM_ERR_FORMAT. */
+GM_NODISCARD gm_status gm_map_put_verification(const char *path,
+                                               const gm_map_verification *verification,
+                                               gm_error *error);
+
+/** The results in a map's file: *results[*n], NULL and 0 when there are none. Free with
+ *  gm_map_results_free. GM_ERR_IO, GM_ERR_FORMAT, GM_ERR_MEMORY. */
+GM_NODISCARD gm_status gm_map_get_results(const char *path, int *n, char ***results,
+                                          gm_error *error);
+void gm_map_results_free(int n, char **results);
 
 /** A sweep's journal beside the map to be. */
 typedef struct gm_journal gm_journal;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * Measured errors beside the map they belong to: the table `verification` of a finished
- * map's file. It says how far the component is from the detailed gearset at points that
- * the sweep did not use; the map itself and its content hash do not change.
+ * What was measured, beside the map it belongs to: the table `verification` of a finished
+ * map's file says how far the component is from the detailed gearset at points that the
+ * sweep did not use, the table `result` keeps the whole results, of which a passport is
+ * made. The map itself and its content hash do not change.
  */
 #include "base/alloc.h"
 #include "map/gm_map_file.h"
@@ -10,12 +11,13 @@
 #include "map/map_place.h"
 #include "map/map_schema.h"
 
-#include <limits.h>
 #include <string.h>
 
 #define RPM 9.54929658551372 /* per rad/s */
 
-static const char create[] = "CREATE TABLE IF NOT EXISTS verification (\n"
+static const char create[] = "CREATE TABLE IF NOT EXISTS result (json TEXT NOT NULL);\n"
+                             "DELETE FROM result;\n"
+                             "CREATE TABLE IF NOT EXISTS verification (\n"
                              "  kind TEXT NOT NULL,\n"
                              "  path TEXT NOT NULL,\n"
                              "  gear_0 INTEGER NOT NULL,\n"
@@ -52,20 +54,39 @@ static gm_status put_one(const gm_db *db, sqlite3_stmt *put, long long seed,
     return gm_db_step(db, put, error);
 }
 
-static gm_status put_all(const gm_db *db, long long seed, int n,
-                         const gm_map_error *errors, gm_error *error)
+static gm_status put_errors(const gm_db *db, const gm_map_verification *v,
+                            gm_error *error)
 {
     sqlite3_stmt *put = NULL;
-    gm_status status = gm_db_run(db, create, error);
-    if (status == GM_OK)
-        status = gm_db_prepare(db,
-                               "INSERT INTO verification VALUES "
-                               "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
-                               &put, error);
-    for (int i = 0; i < n && status == GM_OK; i++)
-        status = put_one(db, put, seed, &errors[i], error);
+    gm_status status = gm_db_prepare(db,
+                                     "INSERT INTO verification VALUES "
+                                     "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                                     &put, error);
+    for (int i = 0; i < v->n_errors && status == GM_OK; i++)
+        status = put_one(db, put, v->seed, &v->errors[i], error);
     (void)sqlite3_finalize(put);
     return status;
+}
+
+static gm_status put_results(const gm_db *db, const gm_map_verification *v,
+                             gm_error *error)
+{
+    sqlite3_stmt *put = NULL;
+    gm_status status = gm_db_prepare(db, "INSERT INTO result VALUES (?)", &put, error);
+    for (int i = 0; i < v->n_results && status == GM_OK; i++) {
+        (void)sqlite3_bind_text(put, 1, v->results[i], -1, SQLITE_STATIC);
+        status = gm_db_step(db, put, error);
+    }
+    (void)sqlite3_finalize(put);
+    return status;
+}
+
+static gm_status put_all(const gm_db *db, const gm_map_verification *v, gm_error *error)
+{
+    gm_status status = gm_db_run(db, create, error);
+    if (status == GM_OK)
+        status = put_errors(db, v, error);
+    return status == GM_OK ? put_results(db, v, error) : status;
 }
 
 static gm_status check_is_map(const gm_db *db, gm_error *error)
@@ -79,8 +100,9 @@ static gm_status check_is_map(const gm_db *db, gm_error *error)
     return status;
 }
 
-gm_status gm_map_put_errors(const char *path, long long seed, int n,
-                            const gm_map_error *errors, gm_error *error)
+gm_status gm_map_put_verification(const char *path,
+                                  const gm_map_verification *verification,
+                                  gm_error *error)
 {
     gm_db db = {0};
     if (!gm_place_exists(path))
@@ -91,7 +113,7 @@ gm_status gm_map_put_errors(const char *path, long long seed, int n,
     if (status == GM_OK)
         status = gm_db_run(&db, "BEGIN IMMEDIATE", error);
     if (status == GM_OK) {
-        status = put_all(&db, seed, n, errors, error);
+        status = put_all(&db, verification, error);
         gm_status end = gm_db_run(&db, status == GM_OK ? "COMMIT" : "ROLLBACK",
                                   status == GM_OK ? error : NULL);
         status = status == GM_OK ? end : status;
@@ -102,80 +124,57 @@ gm_status gm_map_put_errors(const char *path, long long seed, int n,
 
 /* ---- and back ---- */
 
-static gm_status read_one(const gm_db *db, sqlite3_stmt *rows, gm_map_error *e,
+static gm_status read_one(const gm_db *db, sqlite3_stmt *rows, char **result,
                           gm_error *error)
 {
-    char kind[64], path[64], direction[16];
-    bool one_path = sqlite3_column_type(rows, 3) == SQLITE_NULL;
-    if (!gm_column_text(rows, 0, sizeof kind, kind) ||
-        !gm_column_text(rows, 1, sizeof path, path) ||
-        !gm_column_int(rows, 2, -GM_MAP_ANY, GM_MAP_ANY, &e->gear[0]) ||
-        (!one_path && !gm_column_int(rows, 3, -GM_MAP_ANY, GM_MAP_ANY, &e->gear[1])) ||
-        !gm_column_text(rows, 4, sizeof direction, direction) ||
-        !gm_column_int(rows, 5, 0, INT_MAX, &e->points) ||
-        !gm_column_real(rows, 6, &e->largest) || !gm_column_real(rows, 7, &e->max) ||
-        !gm_column_real(rows, 8, &e->rms) || !gm_column_real(rows, 9, &e->worst_speed) ||
-        !gm_column_real(rows, 10, &e->worst_torque))
-        return gm_db_damaged(db, "a measured error is wrong", error);
-    e->gear[1] = one_path ? GM_MAP_ANY : e->gear[1];
-    e->direction = strcmp(direction, "backward") == 0 ? -1 : 1;
-    e->worst_speed /= RPM;
-    e->kind = gm_strdup(kind);
-    e->path = gm_strdup(path);
-    return e->kind && e->path
-               ? GM_OK
-               : gm_fail(error, GM_ERR_MEMORY, "no memory for the measured errors");
+    const char *text = sqlite3_column_type(rows, 0) == SQLITE_TEXT
+                           ? (const char *)sqlite3_column_text(rows, 0)
+                           : NULL;
+    if (!text || strlen(text) != (size_t)sqlite3_column_bytes(rows, 0))
+        return gm_db_damaged(db, "a measured result is wrong", error);
+    *result = gm_strdup(text);
+    return *result ? GM_OK
+                   : gm_fail(error, GM_ERR_MEMORY, "no memory for the measured results");
 }
 
-static gm_status read_all(const gm_db *db, int n, gm_map_error *errors, gm_error *error)
+static gm_status read_all(const gm_db *db, int n, char **results, gm_error *error)
 {
     sqlite3_stmt *rows = NULL;
-    gm_status status = gm_db_prepare(
-        db,
-        "SELECT kind, path, gear_0, gear_1, direction, points, largest_Nm, max_Nm, "
-        "rms_Nm, worst_speed_rpm, worst_torque_Nm FROM verification ORDER BY rowid",
-        &rows, error);
+    gm_status status =
+        gm_db_prepare(db, "SELECT json FROM result ORDER BY rowid", &rows, error);
     for (int i = 0; status == GM_OK && i < n; i++) {
         bool row = false;
         status = gm_db_next(db, rows, &row, error);
         if (status == GM_OK)
-            status = read_one(db, rows, &errors[i], error);
+            status = read_one(db, rows, &results[i], error);
     }
     (void)sqlite3_finalize(rows);
     return status;
 }
 
-static gm_status read_table(const gm_db *db, int *n, gm_map_error **errors,
-                            gm_error *error)
+/* Made: *n is its length as soon as it is not NULL. */
+static gm_status read_table(const gm_db *db, int *n, char ***made, gm_error *error)
 {
     sqlite3_int64 tables = 0, count = 0;
     gm_status status = gm_db_integer(
-        db, "SELECT count(*) FROM sqlite_master WHERE name = 'verification'", &tables,
-        error);
+        db, "SELECT count(*) FROM sqlite_master WHERE name = 'result'", &tables, error);
     if (status == GM_OK && tables > 0)
-        status = gm_db_integer(db, "SELECT count(*) FROM verification", &count, error);
+        status = gm_db_integer(db, "SELECT count(*) FROM result", &count, error);
     if (status != GM_OK || count == 0)
         return status;
     if (count > GM_MAP_MAX_TABLES)
-        return gm_db_damaged(db, "it has too many measured errors", error);
-    gm_map_error *made = gm_calloc((size_t)count, sizeof *made);
-    if (!made)
-        return gm_fail(error, GM_ERR_MEMORY, "no memory for the measured errors");
-    status = read_all(db, (int)count, made, error);
-    if (status != GM_OK) {
-        gm_map_errors_free((int)count, made);
-        return status;
-    }
+        return gm_db_damaged(db, "it has too many measured results", error);
+    *made = gm_calloc((size_t)count, sizeof **made);
+    if (!*made)
+        return gm_fail(error, GM_ERR_MEMORY, "no memory for the measured results");
     *n = (int)count;
-    *errors = made;
-    return GM_OK;
+    return read_all(db, *n, *made, error);
 }
 
-gm_status gm_map_get_errors(const char *path, int *n, gm_map_error **errors,
-                            gm_error *error)
+gm_status gm_map_get_results(const char *path, int *n, char ***results, gm_error *error)
 {
     gm_db db = {0};
-    gm_map_error *made = NULL;
+    char **made = NULL;
     int count = 0;
     if (!gm_place_exists(path))
         return gm_fail(error, GM_ERR_IO, "%s: there is no such file", path);
@@ -185,18 +184,18 @@ gm_status gm_map_get_errors(const char *path, int *n, gm_map_error **errors,
     if (status == GM_OK)
         status = read_table(&db, &count, &made, error);
     gm_db_close(&db);
-    if (status == GM_OK) {
-        *n = count;
-        *errors = made;
+    if (status != GM_OK) {
+        gm_map_results_free(count, made);
+        return status;
     }
-    return status;
+    *n = count;
+    *results = made;
+    return GM_OK;
 }
 
-void gm_map_errors_free(int n, gm_map_error *errors)
+void gm_map_results_free(int n, char **results)
 {
-    for (int i = 0; i < n; i++) {
-        gm_free((void *)errors[i].kind);
-        gm_free((void *)errors[i].path);
-    }
-    gm_free(errors);
+    for (int i = 0; i < n; i++)
+        gm_free(results[i]);
+    gm_free(results);
 }

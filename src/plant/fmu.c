@@ -2,6 +2,7 @@
 #include "plant/gm_fmu.h"
 
 #include "base/alloc.h"
+#include "base/sha256.h"
 #include "plant/fmu_archive.h"
 #include "plant/fmu_parts.h"
 
@@ -128,7 +129,12 @@ void gm_fmu_close(gm_fmu *fmu)
 gm_fmu_origin gm_fmu_read_origin(const gm_fmu *fmu)
 {
     const fmu_description *d = &fmu->description;
-    return (gm_fmu_origin){d->source_sha256, d->map_hash, d->oil_temperature};
+    return (gm_fmu_origin){d->source_sha256, d->map_hash, d->oil_temperature, d->guid};
+}
+
+gm_status gm_fmu_hash_library(const gm_fmu *fmu, char text[65], gm_error *error)
+{
+    return gm_sha256_file(fmu->library.path, text, error);
 }
 
 const char *gm_fmu_path(const gm_fmu *fmu)

@@ -36,17 +36,16 @@ static gm_status find_functions(const char *archive, fmu_library *library,
 gm_status gm_fmu_library_load(const char *folder, const char *identifier,
                               const char *archive, fmu_library *library, gm_error *error)
 {
-    char path[4096];
     fmu_library loaded = {0};
-    if (snprintf(path, sizeof path,
+    if (snprintf(loaded.path, sizeof loaded.path,
                  "%s/binaries/" GM_FMI2_PLATFORM "/%s" GM_LIBRARY_ENDING, folder,
-                 identifier) >= (int)sizeof path ||
-        access(path, R_OK) != 0)
+                 identifier) >= (int)sizeof loaded.path ||
+        access(loaded.path, R_OK) != 0)
         return gm_fail(error, GM_ERR_FORMAT,
                        "%s: the FMU has no library for this platform (" GM_FMI2_PLATFORM
                        ")",
                        archive);
-    loaded.handle = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    loaded.handle = dlopen(loaded.path, RTLD_NOW | RTLD_LOCAL);
     if (!loaded.handle)
         return gm_fail(error, GM_ERR_TOOL, "%s: the FMU's library cannot be loaded: %s",
                        archive, dlerror());

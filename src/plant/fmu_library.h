@@ -8,6 +8,8 @@
 #include "base/gm_status.h"
 #include "fmi2FunctionTypes.h"
 
+#define FMU_LIBRARY_PATH 1024
+
 /** Functions that every FMU must have. */
 #define FMU_FUNCTIONS(X)                                                                 \
     X(Instantiate)                                                                       \
@@ -38,6 +40,7 @@
 
 typedef struct fmu_library {
     void *handle;
+    char path[FMU_LIBRARY_PATH]; /* of the file that was loaded */
 #define FMU_FIELD(name) fmi2##name##TYPE *name;
     FMU_FUNCTIONS(FMU_FIELD)
     FMU_EXCHANGE_FUNCTIONS(FMU_FIELD)

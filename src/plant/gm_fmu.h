@@ -28,10 +28,14 @@ typedef struct gm_fmu_origin {
     const char *description_sha256; /* NULL: it does not say */
     const char *map_hash;           /* content hash of the map; NULL: it does not say */
     double oil_temperature;         /* K; NAN: it does not say */
+    const char *guid;
 } gm_fmu_origin;
 
 /** The texts belong to the FMU. */
 gm_fmu_origin gm_fmu_read_origin(const gm_fmu *fmu);
+/** SHA-256 of the library that is executed, 64 hexadecimal digits. GM_ERR_IO. */
+GM_NODISCARD gm_status gm_fmu_hash_library(const gm_fmu *fmu, char text[65],
+                                           gm_error *error);
 /** The name it was opened by; belongs to the FMU. */
 const char *gm_fmu_path(const gm_fmu *fmu);
 
