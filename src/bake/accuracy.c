@@ -92,7 +92,9 @@ static void steady_errors(gm_buffer *page, const gm_json_node *steady)
     gm_buffer_text(page, "<p>The first line by gear: the largest loss torque at the "
                          "input, errors relative to it, and the speed and torque of the "
                          "input where the error is largest.</p>\n");
-    gm_page_table(page, "path|>gear|rotation|>largest loss|>largest error|>RMS|>at speed|>and torque");
+    gm_page_table(
+        page,
+        "path|>gear|rotation|>largest loss|>largest error|>RMS|>at speed|>and torque");
     for (const gm_json_node *c = gm_json_member(steady, "cases")->first; c; c = c->next)
         gear_row(page, c);
     gm_page_table_end(page);
