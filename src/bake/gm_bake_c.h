@@ -37,8 +37,8 @@ typedef struct gm_bake_c_summary {
 } gm_bake_c_summary;
 
 /** Write the folder. It must not exist, be empty, or be the work of an earlier bake,
- *  whose files are then replaced. Same map and options: same bytes. GM_ERR_IO, GM_ERR_MEMORY,
- *  GM_ERR_FORMAT as gm_map_view_create. */
+ *  whose files are then replaced. Same map and options: same bytes. GM_ERR_IO,
+ *  GM_ERR_MEMORY, GM_ERR_FORMAT as gm_map_view_create. */
 GM_NODISCARD gm_status gm_bake_c(const gm_map *map, const gm_bake_c_options *options,
                                  const char *folder, gm_bake_c_summary *summary,
                                  gm_error *error);

@@ -43,8 +43,8 @@ GM_NODISCARD gm_status gm_package_extract(const gm_package *package, const char 
 GM_NODISCARD gm_status gm_package_write(const gm_package *package, const char *path,
                                         gm_error *error);
 
-/** Replace n files of the archive at path; contents are moved, also on failure. On failure
- *  the archive is as it was. GM_ERR_IO. */
+/** Replace n files of the archive at path; contents are moved, also on failure. Then the
+ *  archive is as it was. GM_ERR_IO. */
 GM_NODISCARD gm_status gm_package_replace(const char *path, int n,
                                           const char *const *names,
                                           gm_buffer *const *contents, gm_error *error);

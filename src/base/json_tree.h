@@ -37,7 +37,8 @@ typedef struct gm_json_node {
 typedef struct gm_json_tree gm_json_tree;
 
 /** Read one document. name: what messages call it. The tree is the caller's and holds
- *  copies of all texts. GM_ERR_FORMAT with name, line and what is wrong; GM_ERR_MEMORY. */
+ *  copies of all texts. GM_ERR_FORMAT with name, line and what is wrong;
+ *  GM_ERR_MEMORY. */
 GM_NODISCARD gm_status gm_json_read(const char *name, const char *text,
                                     gm_json_tree **tree, gm_error *error);
 void gm_json_tree_destroy(gm_json_tree *tree);

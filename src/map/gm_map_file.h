@@ -56,6 +56,12 @@ GM_NODISCARD gm_status gm_map_put_verification(const char *path,
                                                const gm_map_verification *verification,
                                                gm_error *error);
 
+/** The measured errors in a map's file: *errors[*n], NULL and 0 when there are none. Free
+ *  with gm_map_errors_free. GM_ERR_IO, GM_ERR_FORMAT, GM_ERR_MEMORY. */
+GM_NODISCARD gm_status gm_map_get_errors(const char *path, int *n, gm_map_error **errors,
+                                         gm_error *error);
+void gm_map_errors_free(int n, gm_map_error *errors);
+
 /** The results in a map's file: *results[*n], NULL and 0 when there are none. Free with
  *  gm_map_results_free. GM_ERR_IO, GM_ERR_FORMAT, GM_ERR_MEMORY. */
 GM_NODISCARD gm_status gm_map_get_results(const char *path, int *n, char ***results,

@@ -11,6 +11,7 @@
 #include "map/map_place.h"
 #include "map/map_schema.h"
 
+#include <limits.h>
 #include <string.h>
 
 #define RPM 9.54929658551372 /* per rad/s */
@@ -89,17 +90,6 @@ static gm_status put_all(const gm_db *db, const gm_map_verification *v, gm_error
     return status == GM_OK ? put_results(db, v, error) : status;
 }
 
-static gm_status check_is_map(const gm_db *db, gm_error *error)
-{
-    sqlite3_int64 application = 0;
-    gm_status status = gm_db_integer(db, "PRAGMA application_id", &application, error);
-    if (status == GM_OK && application != GM_MAP_APPLICATION)
-        status =
-            gm_fail(error, GM_ERR_FORMAT,
-                    "%s is not a map: it is an SQLite file of another kind", db->path);
-    return status;
-}
-
 gm_status gm_map_put_verification(const char *path,
                                   const gm_map_verification *verification,
                                   gm_error *error)
@@ -109,7 +99,7 @@ gm_status gm_map_put_verification(const char *path,
         return gm_fail(error, GM_ERR_IO, "%s: there is no such file", path);
     gm_status status = gm_db_open(path, &db, error);
     if (status == GM_OK)
-        status = check_is_map(&db, error);
+        status = gm_schema_is_map(&db, error);
     if (status == GM_OK)
         status = gm_db_run(&db, "BEGIN IMMEDIATE", error);
     if (status == GM_OK) {
@@ -124,78 +114,101 @@ gm_status gm_map_put_verification(const char *path,
 
 /* ---- and back ---- */
 
-static gm_status read_one(const gm_db *db, sqlite3_stmt *rows, char **result,
+static gm_status read_one(const gm_db *db, sqlite3_stmt *rows, gm_map_error *e,
                           gm_error *error)
 {
-    const char *text = sqlite3_column_type(rows, 0) == SQLITE_TEXT
-                           ? (const char *)sqlite3_column_text(rows, 0)
-                           : NULL;
-    if (!text || strlen(text) != (size_t)sqlite3_column_bytes(rows, 0))
-        return gm_db_damaged(db, "a measured result is wrong", error);
-    *result = gm_strdup(text);
-    return *result ? GM_OK
-                   : gm_fail(error, GM_ERR_MEMORY, "no memory for the measured results");
+    char kind[64], path[64], direction[16];
+    bool one_path = sqlite3_column_type(rows, 3) == SQLITE_NULL;
+    if (!gm_column_text(rows, 0, sizeof kind, kind) ||
+        !gm_column_text(rows, 1, sizeof path, path) ||
+        !gm_column_int(rows, 2, -GM_MAP_ANY, GM_MAP_ANY, &e->gear[0]) ||
+        (!one_path && !gm_column_int(rows, 3, -GM_MAP_ANY, GM_MAP_ANY, &e->gear[1])) ||
+        !gm_column_text(rows, 4, sizeof direction, direction) ||
+        !gm_column_int(rows, 5, 0, INT_MAX, &e->points) ||
+        !gm_column_real(rows, 6, &e->largest) || !gm_column_real(rows, 7, &e->max) ||
+        !gm_column_real(rows, 8, &e->rms) || !gm_column_real(rows, 9, &e->worst_speed) ||
+        !gm_column_real(rows, 10, &e->worst_torque))
+        return gm_db_damaged(db, "a measured error is wrong", error);
+    e->gear[1] = one_path ? GM_MAP_ANY : e->gear[1];
+    e->direction = strcmp(direction, "backward") == 0 ? -1 : 1;
+    e->worst_speed /= RPM;
+    e->kind = gm_strdup(kind);
+    e->path = gm_strdup(path);
+    return e->kind && e->path
+               ? GM_OK
+               : gm_fail(error, GM_ERR_MEMORY, "no memory for the measured errors");
 }
 
-static gm_status read_all(const gm_db *db, int n, char **results, gm_error *error)
+static gm_status read_all(const gm_db *db, int n, gm_map_error *errors, gm_error *error)
 {
     sqlite3_stmt *rows = NULL;
-    gm_status status =
-        gm_db_prepare(db, "SELECT json FROM result ORDER BY rowid", &rows, error);
+    gm_status status = gm_db_prepare(
+        db,
+        "SELECT kind, path, gear_0, gear_1, direction, points, largest_Nm, max_Nm, "
+        "rms_Nm, worst_speed_rpm, worst_torque_Nm FROM verification ORDER BY rowid",
+        &rows, error);
     for (int i = 0; status == GM_OK && i < n; i++) {
         bool row = false;
         status = gm_db_next(db, rows, &row, error);
         if (status == GM_OK)
-            status = read_one(db, rows, &results[i], error);
+            status = read_one(db, rows, &errors[i], error);
     }
     (void)sqlite3_finalize(rows);
     return status;
 }
 
-/* Made: *n is its length as soon as it is not NULL. */
-static gm_status read_table(const gm_db *db, int *n, char ***made, gm_error *error)
+static gm_status read_table(const gm_db *db, int *n, gm_map_error **errors,
+                            gm_error *error)
 {
     sqlite3_int64 tables = 0, count = 0;
     gm_status status = gm_db_integer(
-        db, "SELECT count(*) FROM sqlite_master WHERE name = 'result'", &tables, error);
+        db, "SELECT count(*) FROM sqlite_master WHERE name = 'verification'", &tables,
+        error);
     if (status == GM_OK && tables > 0)
-        status = gm_db_integer(db, "SELECT count(*) FROM result", &count, error);
+        status = gm_db_integer(db, "SELECT count(*) FROM verification", &count, error);
     if (status != GM_OK || count == 0)
         return status;
     if (count > GM_MAP_MAX_TABLES)
-        return gm_db_damaged(db, "it has too many measured results", error);
-    *made = gm_calloc((size_t)count, sizeof **made);
-    if (!*made)
-        return gm_fail(error, GM_ERR_MEMORY, "no memory for the measured results");
+        return gm_db_damaged(db, "it has too many measured errors", error);
+    gm_map_error *made = gm_calloc((size_t)count, sizeof *made);
+    if (!made)
+        return gm_fail(error, GM_ERR_MEMORY, "no memory for the measured errors");
+    status = read_all(db, (int)count, made, error);
+    if (status != GM_OK) {
+        gm_map_errors_free((int)count, made);
+        return status;
+    }
     *n = (int)count;
-    return read_all(db, *n, *made, error);
+    *errors = made;
+    return GM_OK;
 }
 
-gm_status gm_map_get_results(const char *path, int *n, char ***results, gm_error *error)
+gm_status gm_map_get_errors(const char *path, int *n, gm_map_error **errors,
+                            gm_error *error)
 {
     gm_db db = {0};
-    char **made = NULL;
+    gm_map_error *made = NULL;
     int count = 0;
     if (!gm_place_exists(path))
         return gm_fail(error, GM_ERR_IO, "%s: there is no such file", path);
     gm_status status = gm_db_open_constant(path, &db, error);
     if (status == GM_OK)
-        status = check_is_map(&db, error);
+        status = gm_schema_is_map(&db, error);
     if (status == GM_OK)
         status = read_table(&db, &count, &made, error);
     gm_db_close(&db);
-    if (status != GM_OK) {
-        gm_map_results_free(count, made);
-        return status;
+    if (status == GM_OK) {
+        *n = count;
+        *errors = made;
     }
-    *n = count;
-    *results = made;
-    return GM_OK;
+    return status;
 }
 
-void gm_map_results_free(int n, char **results)
+void gm_map_errors_free(int n, gm_map_error *errors)
 {
-    for (int i = 0; i < n; i++)
-        gm_free(results[i]);
-    gm_free(results);
+    for (int i = 0; i < n; i++) {
+        gm_free((void *)errors[i].kind);
+        gm_free((void *)errors[i].path);
+    }
+    gm_free(errors);
 }

@@ -205,3 +205,14 @@ gm_status gm_schema_check(const gm_db *db, gm_error *error)
     (void)sqlite3_finalize(find);
     return status;
 }
+
+gm_status gm_schema_is_map(const gm_db *db, gm_error *error)
+{
+    sqlite3_int64 application = 0;
+    gm_status status = gm_db_integer(db, "PRAGMA application_id", &application, error);
+    if (status == GM_OK && application != GM_MAP_APPLICATION)
+        status =
+            gm_fail(error, GM_ERR_FORMAT,
+                    "%s is not a map: it is an SQLite file of another kind", db->path);
+    return status;
+}

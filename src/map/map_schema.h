@@ -14,6 +14,9 @@
 /** Tables, views, application id and format version. To be called in a transaction. */
 GM_NODISCARD gm_status gm_schema_create(const gm_db *db, gm_error *error);
 
+/** GM_ERR_FORMAT unless the file says that it is a map. */
+GM_NODISCARD gm_status gm_schema_is_map(const gm_db *db, gm_error *error);
+
 /** GM_ERR_FORMAT unless every table is there and declared as gm_schema_create does. What
  *  else is in the file (a user's own tables) does not matter. */
 GM_NODISCARD gm_status gm_schema_check(const gm_db *db, gm_error *error);

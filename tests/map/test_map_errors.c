@@ -73,6 +73,53 @@ static void later_errors_take_the_place_of_earlier_ones(void **state)
     gm_map_destroy(map);
 }
 
+static void errors_are_read_back(void **state)
+{
+    gm_map_error *read = NULL;
+    int n = 0;
+    (void)state;
+    gm_map *map = fixture_map(&fixture_full);
+    file_write_map(map);
+    assert_int_equal(gm_map_get_errors(file_path, &n, &read, NULL), GM_OK);
+    assert_int_equal(n, 0);
+    assert_null(read);
+    assert_int_equal(put(7, 2, NULL), GM_OK);
+    assert_int_equal(gm_map_get_errors(file_path, &n, &read, NULL), GM_OK);
+    assert_int_equal(n, 2);
+    for (int i = 0; i < n; i++) {
+        assert_string_equal(read[i].kind, errors[i].kind);
+        assert_string_equal(read[i].path, errors[i].path);
+        assert_int_equal(read[i].gear[0], errors[i].gear[0]);
+        assert_int_equal(read[i].gear[1], errors[i].gear[1]);
+        assert_int_equal(read[i].direction, errors[i].direction);
+        assert_int_equal(read[i].points, errors[i].points);
+        assert_true(read[i].largest == errors[i].largest);
+        assert_true(read[i].max == errors[i].max && read[i].rms == errors[i].rms);
+        assert_true(read[i].worst_torque == errors[i].worst_torque);
+    }
+    gm_map_errors_free(n, read);
+    gm_map_destroy(map);
+}
+
+static void reading_errors_without_memory_leaves_nothing(void **state)
+{
+    gm_map_error *read = NULL;
+    int n = 0;
+    gm_status status = GM_ERR_MEMORY;
+    (void)state;
+    gm_map *map = fixture_map(&fixture_full);
+    file_write_map(map);
+    gm_map_destroy(map);
+    assert_int_equal(put(7, 2, NULL), GM_OK);
+    for (long k = 1; status == GM_ERR_MEMORY; k++) {
+        gm_alloc_fail_after(k);
+        status = gm_map_get_errors(file_path, &n, &read, NULL);
+        gm_alloc_fail_after(0);
+        assert_true(status == GM_OK || (status == GM_ERR_MEMORY && !read && n == 0));
+    }
+    gm_map_errors_free(n, read);
+}
+
 static void results_are_read_back(void **state)
 {
     char **read = NULL;
@@ -164,6 +211,9 @@ int main(void)
         cmocka_unit_test_setup_teardown(errors_stand_beside_an_unchanged_map, file_setup,
                                         file_teardown),
         cmocka_unit_test_setup_teardown(later_errors_take_the_place_of_earlier_ones,
+                                        file_setup, file_teardown),
+        cmocka_unit_test_setup_teardown(errors_are_read_back, file_setup, file_teardown),
+        cmocka_unit_test_setup_teardown(reading_errors_without_memory_leaves_nothing,
                                         file_setup, file_teardown),
         cmocka_unit_test_setup_teardown(results_are_read_back, file_setup, file_teardown),
         cmocka_unit_test_setup_teardown(a_result_that_is_no_text_is_damage, file_setup,
