@@ -181,6 +181,8 @@ static gm_status bake_and_verify(const arguments *a, reduction *r, const char *n
 static gm_status reduce(const arguments *a, reduction *r, gm_error *error)
 {
     char name[GM_PATH_SIZE];
+    gm_sweep_settings settings = a->sweep;
+    settings.monotone = gm_stage_is_monotone(a->bake.interpolation);
     gm_status status = check_before(a, error);
     if (status == GM_OK)
         status = gm_file_own_name(a->output, name, error);
@@ -188,10 +190,12 @@ static gm_status reduce(const arguments *a, reduction *r, gm_error *error)
         status = gm_gearset_file_open(a->description, a->sweep.oil_temperature, &r->file,
                                       error);
     if (status == GM_OK)
-        status = gm_stage_sweep(&r->file, &a->sweep, a->map, &r->sweep, error);
+        status = gm_stage_sweep(&r->file, &settings, a->map, &r->sweep, error);
     if (status == GM_OK)
         status = bake_and_verify(a, r, name, error);
     r->elapsed = gm_stage_clock() - r->start;
+    if (status == GM_OK)
+        gm_stage_warn(&r->sweep, &r->verify);
     return status == GM_OK ? gm_command_print(&form, a->json, r, error) : status;
 }
 

@@ -112,6 +112,44 @@ static gm_status read_quantity(const parser *p, const gm_option *o, const char *
     return GM_OK;
 }
 
+/* One part of an error, as text of n characters: false when it is none or given
+   already. */
+static bool read_error_part(const char *text, size_t n, gm_option_error *e)
+{
+    char part[32];
+    double value;
+    if (n >= sizeof part)
+        return false;
+    memcpy(part, text, n);
+    part[n] = '\0';
+    if (n > 1 && part[n - 1] == '%' && gm_text_to_quantity(part, "%", &value) &&
+        e->share == 0.0) {
+        e->share = value / 100.0;
+        return value > 0.0 && value < 100.0;
+    }
+    bool named = n > 0 && strchr("0123456789. ", part[n - 1]) == NULL;
+    if (!named || !to_si("Nm", part, &value) || e->torque != 0.0)
+        return false;
+    e->torque = value;
+    return value > 0.0;
+}
+
+static gm_status read_error(const parser *p, const gm_option *o, const char *text)
+{
+    gm_option_error e = {0.0, 0.0};
+    size_t n = strcspn(text, ",");
+    bool good = read_error_part(text, n, &e);
+    if (good && text[n] == ',')
+        good = read_error_part(text + n + 1, strlen(text + n + 1), &e);
+    if (!good)
+        return gm_fail(
+            p->error, GM_ERR_ARGUMENT,
+            "--%s needs an error such as 0.5%%, 0.1Nm or 0.5%%,0.1Nm, not '%s'", o->name,
+            text);
+    memcpy(p->arguments + o->offset, &e, sizeof e);
+    return GM_OK;
+}
+
 static gm_status read_text(const parser *p, const gm_option *o, const char *text)
 {
     char name[64];
@@ -128,6 +166,8 @@ static gm_status read_value(const parser *p, const gm_option *o, const char *tex
         return read_integer(p, o, text);
     case GM_OPTION_QUANTITY:
         return read_quantity(p, o, text);
+    case GM_OPTION_ERROR:
+        return read_error(p, o, text);
     case GM_OPTION_TEXT:
     case GM_OPTION_OPERAND:
         return read_text(p, o, text);

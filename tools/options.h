@@ -20,8 +20,15 @@ typedef enum gm_option_kind {
     GM_OPTION_TEXT,     /* const char *: points into argv; NULL when not given */
     GM_OPTION_INTEGER,  /* int */
     GM_OPTION_QUANTITY, /* double, SI; NAN when not given */
+    GM_OPTION_ERROR,    /* gm_option_error; both zero when not given */
     GM_OPTION_OPERAND   /* const char *: an argument without a name, in table order */
 } gm_option_kind;
+
+/** An error that is allowed, such as "0.5%", "0.1Nm" or "0.5%,0.1Nm". */
+typedef struct gm_option_error {
+    double share;  /* 0.5% is 0.005 */
+    double torque; /* N.m */
+} gm_option_error;
 
 typedef struct gm_option {
     gm_option_kind kind;

@@ -70,6 +70,9 @@ gm_status gm_stage_sweep(const gm_gearset_file *file, const gm_sweep_settings *s
         .torque_step = or_zero(settings->torque_step),
         .speed_max = or_zero(settings->speed_max),
         .torque_max = or_zero(settings->torque_max),
+        .tolerance_share = settings->tolerance.share,
+        .tolerance_torque = settings->tolerance.torque,
+        .monotone = settings->monotone,
         .threads = settings->threads == GM_OPTION_UNSET ? 0 : settings->threads,
     };
     gm_progress progress;
@@ -82,6 +85,7 @@ gm_status gm_stage_sweep(const gm_gearset_file *file, const gm_sweep_settings *s
                           &stage->map, &stage->summary, error);
     gm_progress_end(&progress);
     stage->path = path;
+    stage->tolerance = settings->tolerance;
     return status == GM_ERR_INTERRUPTED ? interrupted(path, error) : status;
 }
 
@@ -100,12 +104,17 @@ bool gm_stage_knows_interpolation(const char *name)
     return false;
 }
 
+bool gm_stage_is_monotone(const char *name)
+{
+    return strcmp(name, "monotone") == 0;
+}
+
 static gm_bake_options options_of(const gm_bake_settings *settings, const char *share)
 {
     return (gm_bake_options){.share = share,
                              .compiler = settings->compiler,
                              .interpolation =
-                                 strcmp(settings->interpolation, "monotone") == 0
+                                 gm_stage_is_monotone(settings->interpolation)
                                      ? GM_INTERPOLATION_MONOTONE
                                      : GM_INTERPOLATION_LINEAR};
 }
@@ -189,26 +198,49 @@ static void to_map_error(gm_verify_group group, const gm_verify_case *c, int n_p
                         .worst_torque = c->worst_torque};
 }
 
+static gm_map_error *to_map_errors(const gm_verify_result *r, int n_paths, int *n)
+{
+    *n = 0;
+    for (int g = 0; g < GM_VERIFY_GROUPS; g++)
+        *n += r->n_cases[g];
+    gm_map_error *errors = gm_calloc((size_t)*n, sizeof *errors), *next = errors;
+    for (int g = 0; errors && g < GM_VERIFY_GROUPS; g++)
+        for (int i = 0; i < r->n_cases[g]; i++)
+            to_map_error((gm_verify_group)g, &r->cases[g][i], n_paths, next++);
+    return errors;
+}
+
 gm_status gm_stage_keep(const gm_verify_stage *stage, const gm_map *map,
                         const char *result, const char *map_path, gm_error *error)
 {
     const gm_verify_result *r = &stage->result;
-    int n = 0;
-    for (int g = 0; g < GM_VERIFY_GROUPS; g++)
-        n += r->n_cases[g];
-    gm_map_error *errors = gm_calloc((size_t)n, sizeof *errors);
+    int n;
+    gm_map_error *errors = to_map_errors(r, map->n_paths, &n);
     if (!errors)
         return gm_fail(error, GM_ERR_MEMORY, "no memory for the measured errors");
-    n = 0;
-    for (int g = 0; g < GM_VERIFY_GROUPS; g++)
-        for (int i = 0; i < r->n_cases[g]; i++)
-            to_map_error((gm_verify_group)g, &r->cases[g][i], map->n_paths, &errors[n++]);
     const gm_map_verification verification = {.seed = (long long)r->seed,
                                               .n_errors = n,
                                               .errors = errors,
-                                              .n_results = 1,
+                                              .n_results = result ? 1 : 0,
                                               .results = &result};
     gm_status status = gm_map_put_verification(map_path, &verification, error);
     gm_free(errors);
+    return status;
+}
+
+gm_status gm_stage_measure(const gm_plant *plant, const gm_sweep_stage *sweep,
+                           int monotone, int points, int seed, gm_verify_stage *stage,
+                           gm_error *error)
+{
+    double start = gm_stage_clock();
+    memset(stage, 0, sizeof *stage);
+    gm_status status = gm_verify_map(plant, sweep->map, monotone, points, (uint64_t)seed,
+                                     &stage->result, error);
+    if (status != GM_OK)
+        return status;
+    stage->elapsed = gm_stage_clock() - start;
+    status = gm_stage_keep(stage, sweep->map, NULL, sweep->path, error);
+    if (status != GM_OK)
+        gm_stage_verify_clear(stage);
     return status;
 }

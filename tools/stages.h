@@ -9,6 +9,7 @@
 #include "bake/gm_bake.h"
 #include "gearset_file.h"
 #include "json.h"
+#include "options.h"
 #include "plant/gm_fmu.h"
 #include "results.h"
 #include "sweep/gm_sweep.h"
@@ -18,7 +19,9 @@
 typedef struct gm_sweep_settings {
     double speed_step, torque_step; /* rad/s, N.m */
     double speed_max, torque_max;   /* rad/s, N.m */
-    double oil_temperature;         /* K */
+    gm_option_error tolerance;      /* both zero: not given */
+    int monotone; /* set by the command: how the map will be read, for the tolerance */
+    double oil_temperature; /* K */
     int threads;
 } gm_sweep_settings;
 
@@ -26,6 +29,7 @@ typedef struct gm_sweep_stage {
     gm_map *map; /* owned */
     gm_sweep_summary summary;
     const char *path; /* NULL: in memory */
+    gm_option_error tolerance;
 } gm_sweep_stage;
 
 typedef struct gm_bake_stage {
@@ -55,6 +59,9 @@ typedef struct gm_bake_settings {
  *  error. */
 bool gm_stage_knows_interpolation(const char *name);
 
+/** Whether it is the one by monotone cubics. */
+bool gm_stage_is_monotone(const char *name);
+
 /** Bake map into path, with results for the passport (there may be none). */
 GM_NODISCARD gm_status gm_stage_bake(const gm_map *map, const gm_results *results,
                                      const gm_bake_settings *settings, const char *path,
@@ -69,10 +76,28 @@ GM_NODISCARD gm_status gm_stage_verify(const gm_plant *plant, gm_fmu *fmu, int p
                                        int seed, gm_verify_stage *stage, gm_error *error);
 void gm_stage_verify_clear(gm_verify_stage *stage);
 
-/** Write the errors and the result of a verification into the map's file. */
+/** Compare the map of a sweep with the plant, by the reduced gearset in this program, and
+ *  write the errors into the map's file. */
+GM_NODISCARD gm_status gm_stage_measure(const gm_plant *plant,
+                                        const gm_sweep_stage *sweep, int monotone,
+                                        int points, int seed, gm_verify_stage *stage,
+                                        gm_error *error);
+
+/** Say on the standard error which tables missed the tolerance of the sweep and where,
+ *  and which kinds of points lie outside of it as measured. */
+void gm_stage_warn(const gm_sweep_stage *sweep, const gm_verify_stage *verify);
+
+/** Write the errors and the result of a verification (NULL: none) into the
+ *  map's file. */
 GM_NODISCARD gm_status gm_stage_keep(const gm_verify_stage *stage, const gm_map *map,
                                      const char *result, const char *map_path,
                                      gm_error *error);
+
+/** What a kind of points (gm_verify_group) is called for people. */
+const char *gm_stage_group_title(int group);
+
+/** The tolerance of the sweep and the tables that missed it, when there is one. */
+void gm_stage_missed_json(const gm_sweep_stage *stage, gm_json *json);
 
 /** Members of the stage's JSON object. */
 void gm_sweep_stage_json(const gm_sweep_stage *stage, gm_json *json);
@@ -116,6 +141,10 @@ double gm_stage_clock(void);
      .low = 0.1, .high = 1e5, .offset = GM_SWEEP_OPTION(type, torque_step),              \
      .help = "uniform torque axis with this step; default: an axis that is dense at "    \
              "small torque"},                                                            \
+    {.kind = GM_OPTION_ERROR, .name = "tolerance", .value = "ERROR",                     \
+     .offset = GM_SWEEP_OPTION(type, tolerance),                                         \
+     .help = "choose the nodes of every axis by this error at points held out: 0.5% of " \
+             "the largest loss of each gear, or 0.1Nm, or 0.5%,0.1Nm: the larger one"},  \
     {.kind = GM_OPTION_QUANTITY, .name = "speed-max", .value = "SPEED", .unit = "rpm",   \
      .low = 10, .high = 1e5, .offset = GM_SWEEP_OPTION(type, speed_max),                 \
      .help = "largest speed at the input; default: the description's"},                  \

@@ -14,7 +14,7 @@ static const char *direction_name(int direction)
 }
 
 /* gm_verify_group_name is for machines. */
-static const char *group_title(int group)
+const char *gm_stage_group_title(int group)
 {
     static const char *const titles[GM_VERIFY_GROUPS] = {
         [GM_VERIFY_SINGLE] = "one path engaged",
@@ -43,6 +43,7 @@ void gm_sweep_stage_json(const gm_sweep_stage *stage, gm_json *json)
                    stage->summary.largest_ratio_deviation);
     gm_json_integer(json, "size_bytes", map_size(stage));
     gm_json_number(json, "elapsed_s", stage->summary.elapsed);
+    gm_stage_missed_json(stage, json);
 }
 
 void gm_bake_stage_json(const gm_bake_stage *stage, const char *fmu, gm_json *json)
@@ -148,7 +149,7 @@ void gm_verify_stage_print_groups(const gm_verify_stage *stage, FILE *out)
     fprintf(out, "    %-34s %9s %9s\n", "", "max", "RMS");
     for (int group = 0; group < GM_VERIFY_GROUPS; group++)
         if (r->n_cases[group] > 0)
-            fprintf(out, "    %-34s %7.3f %% %7.3f %%\n", group_title(group),
+            fprintf(out, "    %-34s %7.3f %% %7.3f %%\n", gm_stage_group_title(group),
                     100.0 * r->max_relative[group], 100.0 * r->rms_relative[group]);
 }
 
@@ -174,7 +175,7 @@ void gm_verify_stage_print(const gm_verify_stage *stage, FILE *out)
     for (int group = 0; group < GM_VERIFY_GROUPS; group++) {
         if (r->n_cases[group] == 0)
             continue;
-        fprintf(out, "\n%s\n", group_title(group));
+        fprintf(out, "\n%s\n", gm_stage_group_title(group));
         fprintf(out, "    %-6s %-6s %-9s %10s %11s %9s %18s\n", "path", "gear",
                 "rotation", "largest", "max", "RMS", "worst at");
         fprintf(out, "    %-6s %-6s %-9s %10s %11s %9s %9s %8s\n", "", "", "", "[N·m]",

@@ -119,6 +119,11 @@ GM_NODISCARD gm_status gm_map_add_table(gm_map *map, const gm_table_key *key, in
                                         const int *n, const double *const *x, int *index,
                                         gm_error *error);
 
+/** Give a table other axes, by the same rules; its values become zero. On failure it is
+ *  as before. GM_ERR_ARGUMENT, GM_ERR_MEMORY. */
+GM_NODISCARD gm_status gm_map_set_axes(gm_map *map, int index, const int *n,
+                                       const double *const *x, gm_error *error);
+
 /** The table of a key, or NULL. Valid until the next gm_map_add_table. */
 const gm_map_table *gm_map_find(const gm_map *map, const gm_table_key *key);
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * The map's file: SQLite, schema in docs/map.md. While a sweep runs, the same schema is
- * its journal: "<map>.part" holds every finished row, whatever ends the program; when the
- * last row is there it becomes the map. A map never exists half-written under its name.
+ * The map's file: SQLite, schema in docs/map.md. While a sweep runs, "<map>.part" beside
+ * it is its journal: it holds every solved point, whatever ends the program. A map never
+ * exists half-written under its name.
  */
 #ifndef GM_MAP_FILE_H
 #define GM_MAP_FILE_H
@@ -68,36 +68,32 @@ GM_NODISCARD gm_status gm_map_get_results(const char *path, int *n, char ***resu
                                           gm_error *error);
 void gm_map_results_free(int n, char **results);
 
-/** A sweep's journal beside the map to be. */
+/** A sweep's journal beside the map to be: records of one size, of which the sweep knows
+ *  the meaning (the points that it has solved). */
 typedef struct gm_journal gm_journal;
 
-/** Open or create "<path>.part" for a map whose names, gear numbers, keys and axes are
- *  set and whose values are zero. Rows that an earlier run of the same sweep (same tool
- *  version, input hash, options, gears and tables in the same order) finished are put
- *  into map->tables[].value; see gm_journal_has. The journal of another sweep, and a
- *  damaged one, are begun anew. GM_ERR_IO when the place cannot be written, another sweep
- *  is writing this journal, or a file that is no journal is in the way;
- *  GM_ERR_FORMAT when the map's frame is wrong; GM_ERR_MEMORY. On failure *map is as
- *  before and nothing new is left behind. */
-GM_NODISCARD gm_status gm_journal_open(const char *path, gm_map *map,
+/** Open or create "<path>.part" for a map whose names, gear numbers and options are set.
+ *  record: bytes of each record, 1 to 4096. Records that an earlier run of the same sweep
+ *  (same tool version, input hash, options, gears and record size) put are there again,
+ *  see gm_journal_records. The journal of another sweep, and a damaged one, are begun
+ *  anew. GM_ERR_IO when the place cannot be written, another sweep is writing this
+ *  journal, or a file that is no journal is in the way; GM_ERR_FORMAT when the map's
+ *  frame is wrong; GM_ERR_MEMORY. On failure nothing new is left behind. */
+GM_NODISCARD gm_status gm_journal_open(const char *path, const gm_map *map, size_t record,
                                        gm_journal **journal, gm_error *error);
 
-/** True when the row (index on the first axis) is finished. */
-bool gm_journal_has(const gm_journal *journal, int table, int row);
+/** The *count records found when the journal was opened, in the order of their putting;
+ *  the journal's. */
+const void *gm_journal_records(const gm_journal *journal, long *count);
 
-/** Number of finished rows found when the journal was opened. */
-int gm_journal_resumed(const gm_journal *journal);
+/** Keep n more records, all or none. Safe against a killed program from the moment it
+ *  returns. Not thread-safe. GM_ERR_IO, such as no space left. */
+GM_NODISCARD gm_status gm_journal_put(gm_journal *journal, const void *records, int n,
+                                      gm_error *error);
 
-/** Keep one finished row (its values are read from map->tables[table]). Safe against a
- *  killed program from the moment it returns. Not thread-safe. GM_ERR_ARGUMENT: no such
- *  row, or a value is not finite. GM_ERR_IO, such as no space left. */
-GM_NODISCARD gm_status gm_journal_put(gm_journal *journal, const gm_map *map, int table,
-                                      int row, gm_error *error);
-
-/** All rows are there: write ratios, inertias, provenance and the content hash (also into
- *  *map), and rename the file to its final name. Values that changed in *map since they
- *  were put are written again; negative zeros become zeros, which is what SQLite keeps.
- *  GM_ERR_ARGUMENT when rows are missing, GM_ERR_FORMAT when the map is not complete,
+/** The map is complete: put the content hash into *map, write its file whole and give it
+ *  its final name; the journal goes. The same map gives the same bytes. Negative zeros
+ *  become zeros, which is what SQLite keeps. GM_ERR_FORMAT when the map is not complete,
  *  GM_ERR_IO, GM_ERR_MEMORY: then the journal stays, to be resumed. *journal is closed
  *  and gone in any case. */
 GM_NODISCARD gm_status gm_journal_finish(gm_journal *journal, gm_map *map,

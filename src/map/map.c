@@ -124,10 +124,39 @@ gm_status gm_map_add_table(gm_map *map, const gm_table_key *key, int n_axes, con
     return GM_OK;
 }
 
+gm_status gm_map_set_axes(gm_map *map, int index, const int *n, const double *const *x,
+                          gm_error *error)
+{
+    char words[GM_KEY_TEXT];
+    gm_map_table *table = &map->tables[index], made;
+    if (!gm_map_axes_fit(table->key.symbol, table->n_axes, n, x)) {
+        gm_map_key_text(map, &table->key, words);
+        return gm_fail(error, GM_ERR_ARGUMENT,
+                       "table %s: the order or range of its new axes does not fit",
+                       words);
+    }
+    if (!fill_table(&made, &table->key, table->n_axes, n, x)) {
+        clear_table(&made);
+        return gm_fail(error, GM_ERR_MEMORY, "no memory for a table of the map");
+    }
+    clear_table(table);
+    *table = made;
+    return GM_OK;
+}
+
+static bool same_key(const gm_table_key *a, const gm_table_key *b)
+{
+    bool same = a->symbol == b->symbol && a->path == b->path && a->line == b->line;
+    for (int p = 0; p < GM_MAX_PATHS; p++)
+        same = same && a->gear[p] == b->gear[p];
+    return same && a->direction[0] == b->direction[0] &&
+           a->direction[1] == b->direction[1];
+}
+
 const gm_map_table *gm_map_find(const gm_map *map, const gm_table_key *key)
 {
     for (int t = 0; t < map->n_tables; t++)
-        if (gm_map_key_compare(&map->tables[t].key, key) == 0)
+        if (same_key(&map->tables[t].key, key))
             return &map->tables[t];
     return NULL;
 }

@@ -12,18 +12,14 @@ struct gm_journal {
     gm_db db;
     char *path, *part;
     bool fresh; /* made by this call, or empty: removed when opening fails */
-    sqlite3_stmt *begin, *commit, *put;
-    int n_tables;
-    int *first; /* [n_tables + 1] number of rows before each table */
-    int *size;  /* [n_tables] values of a row */
-    int *count; /* [rows] stored values of each row; its size: finished */
-    int resumed;
+    sqlite3_stmt *put;
+    size_t record;          /* bytes */
+    unsigned char *records; /* [count], those found when it was opened */
+    long count;
 };
 
-/** Where a stored value (map_table, i, j, k, value) belongs: table, row and index in
- *  table->value. False when it belongs nowhere or is not a finite number. */
-bool gm_journal_place(sqlite3_stmt *rows, const gm_map *map, int *table, int *row,
-                      int *index, double *value);
+/** Sum over the bytes of a block, so that a damaged one is noticed. */
+long long gm_journal_sum(const void *bytes, size_t size);
 
 /** Close the file and free everything; NULL is fine. */
 void gm_journal_destroy(gm_journal *journal);

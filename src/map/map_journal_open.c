@@ -2,10 +2,10 @@
  *
  * The journal of a sweep: a map's file in the making.
  *
- * Each row is one transaction in SQLite's write-ahead log, so a row is there with all its
- * values or not at all, and a killed program loses none that was put: what write() took
- * belongs to the operating system. Nothing waits for the disk before the end (a power
- * failure may cost the last rows, never the file). The lock is exclusive and stays from
+ * Records come in blocks. Each block is one transaction in SQLite's write-ahead log, so
+ * it is there as a whole or not at all, and a killed program loses none that was put:
+ * what write() took belongs to the operating system. Nothing waits for the disk (a power
+ * failure may cost the last blocks, never the file). The lock is exclusive and stays from
  * opening to the end, which also keeps the log's index in memory: no shared file, and a
  * second sweep on the same journal is refused.
  *
@@ -14,54 +14,33 @@
  * left alone.
  */
 #include "base/alloc.h"
-#include "map/map_frame.h"
 #include "map/map_journal.h"
 #include "map/map_meta.h"
 #include "map/map_place.h"
 #include "map/map_rules.h"
 #include "map/map_schema.h"
 
-#include <math.h>
 #include <string.h>
 
 #define LOG_PAGES "8192" /* of 4 KiB, before the log is moved into the file */
+#define MAX_RECORD 4096
 
-static int row_count(const gm_map *map, int t)
-{
-    return map->tables[t].n[0];
-}
-
-static gm_status make_rows(gm_journal *journal, const gm_map *map, gm_error *error)
-{
-    journal->n_tables = map->n_tables;
-    journal->first = gm_calloc((size_t)map->n_tables + 1, sizeof *journal->first);
-    journal->size = gm_calloc((size_t)map->n_tables, sizeof *journal->size);
-    if (!journal->first || !journal->size)
-        return gm_fail(error, GM_ERR_MEMORY, "no memory for the journal of the sweep");
-    for (int t = 0; t < map->n_tables; t++) {
-        journal->first[t + 1] = journal->first[t] + row_count(map, t);
-        journal->size[t] = gm_map_row_size(&map->tables[t]);
-    }
-    journal->count =
-        gm_calloc((size_t)journal->first[map->n_tables], sizeof *journal->count);
-    if (!journal->count)
-        return gm_fail(error, GM_ERR_MEMORY, "no memory for the journal of the sweep");
-    return GM_OK;
-}
+/* Beside the tables of a map, which stay empty. */
+static const char block_table[] = "CREATE TABLE block (\n"
+                                  "  id INTEGER PRIMARY KEY,\n"
+                                  "  sum INTEGER NOT NULL,\n"
+                                  "  records BLOB NOT NULL\n"
+                                  ")";
 
 void gm_journal_destroy(gm_journal *journal)
 {
     if (!journal)
         return;
-    (void)sqlite3_finalize(journal->begin);
-    (void)sqlite3_finalize(journal->commit);
     (void)sqlite3_finalize(journal->put);
     gm_db_close(&journal->db);
     gm_free(journal->path);
     gm_free(journal->part);
-    gm_free(journal->first);
-    gm_free(journal->size);
-    gm_free(journal->count);
+    gm_free(journal->records);
     gm_free(journal);
 }
 
@@ -136,19 +115,19 @@ static gm_status write_frame(const gm_journal *journal, const gm_map *map,
 {
     char sweep[65];
     const gm_db *db = &journal->db;
-    gm_status status = gm_meta_sweep(map, sweep, error);
+    gm_status status = gm_meta_sweep(map, journal->record, sweep, error);
     if (status == GM_OK)
         status = gm_schema_create(db, error);
+    if (status == GM_OK)
+        status = gm_db_run(db, block_table, error);
     if (status == GM_OK)
         status = gm_meta_put(db, GM_META_STATE, GM_META_SWEEPING, error);
     if (status == GM_OK)
         status = gm_meta_put(db, GM_META_SWEEP, sweep, error);
-    if (status == GM_OK)
-        status = gm_frame_write_tables(db, map, error);
     return status;
 }
 
-/* Tables, axes and keys in one transaction, in the file itself and not in a log. */
+/* In one transaction, in the file itself and not in a log. */
 static gm_status begin_anew(const gm_journal *journal, const gm_map *map, gm_error *error)
 {
     const gm_db *db = &journal->db;
@@ -173,68 +152,67 @@ static gm_status wipe(gm_journal *journal, gm_error *error)
     return status;
 }
 
-bool gm_journal_place(sqlite3_stmt *rows, const gm_map *map, int *table, int *row,
-                      int *index, double *value)
+/* A block after those before it, of which `used` bytes are taken. */
+static gm_status take_block(const gm_journal *journal, sqlite3_stmt *rows, size_t room,
+                            size_t *used, gm_error *error)
 {
-    int j, k;
-    if (!gm_column_int(rows, 0, 0, map->n_tables - 1, table))
-        return false;
-    const int *n = map->tables[*table].n;
-    if (!gm_column_int(rows, 1, 0, n[0] - 1, row) ||
-        !gm_column_int(rows, 2, 0, n[1] - 1, &j) ||
-        !gm_column_int(rows, 3, 0, n[2] - 1, &k) || !gm_column_real(rows, 4, value))
-        return false;
-    *index = (*row * n[1] + j) * n[2] + k;
-    return isfinite(*value);
+    const void *bytes = sqlite3_column_blob(rows, 1);
+    size_t size = (size_t)sqlite3_column_bytes(rows, 1);
+    if (!bytes || size % journal->record != 0 || size > room - *used ||
+        sqlite3_column_int64(rows, 0) != gm_journal_sum(bytes, size))
+        return gm_db_damaged(&journal->db, "it has a wrong block", error);
+    memcpy(journal->records + *used, bytes, size);
+    *used += size;
+    return GM_OK;
 }
 
-/* Undo a load that failed on its way. */
-static void forget_values(gm_journal *journal, gm_map *map)
-{
-    for (int t = 0; t < map->n_tables; t++) {
-        int *count = &journal->count[journal->first[t]], size = journal->size[t];
-        for (int m = 0; m < gm_map_table_size(&map->tables[t]); m++)
-            if (count[m / size] > 0)
-                map->tables[t].value[m] = 0.0;
-        memset(count, 0, (size_t)row_count(map, t) * sizeof *count);
-    }
-    journal->resumed = 0;
-}
-
-static gm_status load(gm_journal *journal, gm_map *map, gm_error *error)
+static gm_status read_blocks(gm_journal *journal, size_t room, gm_error *error)
 {
     sqlite3_stmt *rows;
     bool row = true;
+    size_t used = 0;
     const gm_db *db = &journal->db;
     gm_status status =
-        gm_db_prepare(db, "SELECT map_table, i, j, k, value FROM value", &rows, error);
+        gm_db_prepare(db, "SELECT sum, records FROM block ORDER BY id", &rows, error);
     if (status == GM_OK)
         status = gm_db_next(db, rows, &row, error);
     while (status == GM_OK && row) {
-        int t, i, index;
-        double value;
-        if (!gm_journal_place(rows, map, &t, &i, &index, &value)) {
-            status = gm_db_damaged(db, "it has a value of no table", error);
-        } else {
-            map->tables[t].value[index] = value;
-            journal->count[journal->first[t] + i]++;
+        status = take_block(journal, rows, room, &used, error);
+        if (status == GM_OK)
             status = gm_db_next(db, rows, &row, error);
-        }
     }
     (void)sqlite3_finalize(rows);
-    for (int t = 0; status == GM_OK && t < map->n_tables; t++)
-        for (int i = 0; i < row_count(map, t); i++)
-            journal->resumed += gm_journal_has(journal, t, i);
+    journal->count = status == GM_OK ? (long)(used / journal->record) : 0;
     return status;
 }
 
+static gm_status load(gm_journal *journal, gm_error *error)
+{
+    sqlite3_int64 room = 0, pages = 0, page_size = 0;
+    const gm_db *db = &journal->db;
+    gm_status status =
+        gm_db_integer(db, "SELECT total(length(records)) FROM block", &room, error);
+    if (status == GM_OK)
+        status = gm_db_integer(db, "PRAGMA page_count", &pages, error);
+    if (status == GM_OK)
+        status = gm_db_integer(db, "PRAGMA page_size", &page_size, error);
+    if (status == GM_OK && (room < 0 || room > pages * page_size))
+        return gm_db_damaged(db, "its blocks are larger than it", error);
+    if (status != GM_OK || room == 0)
+        return status;
+    journal->records = gm_calloc((size_t)room, 1);
+    if (!journal->records)
+        return gm_fail(error, GM_ERR_MEMORY, "no memory for the journal of the sweep");
+    return read_blocks(journal, (size_t)room, error);
+}
+
 /* GM_ERR_FORMAT when it is not, or not any more, a journal of this sweep. */
-static gm_status resume(gm_journal *journal, gm_map *map, gm_error *error)
+static gm_status resume(gm_journal *journal, const gm_map *map, gm_error *error)
 {
     char sweep[65] = "", stored[65] = "";
     sqlite3_int64 version = 0;
     const gm_db *db = &journal->db;
-    gm_status status = gm_meta_sweep(map, sweep, error);
+    gm_status status = gm_meta_sweep(map, journal->record, sweep, error);
     if (status == GM_OK)
         status = gm_db_integer(db, "PRAGMA user_version", &version, error);
     if (status == GM_OK && version != GM_MAP_FORMAT)
@@ -245,7 +223,7 @@ static gm_status resume(gm_journal *journal, gm_map *map, gm_error *error)
         status = gm_meta_get(db, GM_META_SWEEP, sizeof stored, stored, error);
     if (status == GM_OK && strcmp(sweep, stored) != 0)
         return gm_fail(error, GM_ERR_FORMAT, "another sweep");
-    return status == GM_OK ? load(journal, map, error) : status;
+    return status == GM_OK ? load(journal, error) : status;
 }
 
 static gm_status prepare(gm_journal *journal, gm_error *error)
@@ -257,18 +235,12 @@ static gm_status prepare(gm_journal *journal, gm_error *error)
                   "PRAGMA wal_autocheckpoint = " LOG_PAGES,
                   error);
     if (status == GM_OK)
-        status = gm_db_prepare(db, "BEGIN", &journal->begin, error);
-    if (status == GM_OK)
-        status = gm_db_prepare(db, "COMMIT", &journal->commit, error);
-    if (status == GM_OK)
-        status = gm_db_prepare(db,
-                               "INSERT OR REPLACE INTO value (map_table, i, j, k, value) "
-                               "VALUES (?, ?, ?, ?, ?)",
+        status = gm_db_prepare(db, "INSERT INTO block (sum, records) VALUES (?, ?)",
                                &journal->put, error);
     return status;
 }
 
-static gm_status open_locked(gm_journal *journal, gm_map *map, gm_error *error)
+static gm_status open_locked(gm_journal *journal, const gm_map *map, gm_error *error)
 {
     bool empty = false;
     gm_error why;
@@ -281,8 +253,6 @@ static gm_status open_locked(gm_journal *journal, gm_map *map, gm_error *error)
     journal->fresh = journal->fresh || empty;
     if (found == GM_OK && !empty)
         found = resume(journal, map, &why);
-    if (found != GM_OK)
-        forget_values(journal, map);
     if (found == GM_ERR_FORMAT) {
         status = wipe(journal, error);
         empty = true;
@@ -294,21 +264,23 @@ static gm_status open_locked(gm_journal *journal, gm_map *map, gm_error *error)
     return status == GM_OK ? prepare(journal, error) : status;
 }
 
-gm_status gm_journal_open(const char *path, gm_map *map, gm_journal **journal,
-                          gm_error *error)
+gm_status gm_journal_open(const char *path, const gm_map *map, size_t record,
+                          gm_journal **journal, gm_error *error)
 {
     gm_journal *made = gm_calloc(1, sizeof *made);
     gm_status status = GM_OK;
+    if (record < 1 || record > MAX_RECORD)
+        status = gm_fail(error, GM_ERR_ARGUMENT, "a journal has no records of %zu bytes",
+                         record);
     if (made) {
+        made->record = record;
         made->path = gm_strdup(path);
         made->part = gm_place_journal(path);
     }
-    if (!made || !made->path || !made->part)
+    if (status == GM_OK && (!made || !made->path || !made->part))
         status = gm_fail(error, GM_ERR_MEMORY, "no memory for the journal of the sweep");
     if (status == GM_OK)
         status = gm_map_check_frame(map, error);
-    if (status == GM_OK)
-        status = make_rows(made, map, error);
     if (status == GM_OK)
         status = gm_place_check(path, error);
     if (status == GM_OK)
@@ -327,13 +299,4 @@ gm_status gm_journal_open(const char *path, gm_map *map, gm_journal **journal,
         gm_place_remove(made->part);
     gm_journal_destroy(made);
     return status;
-}
-
-bool gm_journal_has(const gm_journal *journal, int table, int row)
-{
-    if (table < 0 || table >= journal->n_tables || row < 0)
-        return false;
-    int index = journal->first[table] + row;
-    return index < journal->first[table + 1] &&
-           journal->count[index] == journal->size[table];
 }

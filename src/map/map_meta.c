@@ -134,22 +134,7 @@ gm_status gm_meta_provenance(const gm_map *map, char text[65], gm_error *error)
     return GM_OK;
 }
 
-static void add_key(gm_sha256 *sum, const gm_map_table *table)
-{
-    gm_sha256_text(sum, gm_symbol_name(table->key.symbol));
-    gm_sha256_int(sum, table->key.path);
-    for (int p = 0; p < GM_MAX_PATHS; p++)
-        gm_sha256_int(sum, table->key.gear[p]);
-    for (int d = 0; d < 2; d++)
-        gm_sha256_int(sum, table->key.direction[d]);
-    for (int a = 0; a < table->n_axes; a++) {
-        gm_sha256_int(sum, table->n[a]);
-        for (int i = 0; i < table->n[a]; i++)
-            gm_sha256_double(sum, table->x[a][i]);
-    }
-}
-
-gm_status gm_meta_sweep(const gm_map *map, char text[65], gm_error *error)
+gm_status gm_meta_sweep(const gm_map *map, size_t record, char text[65], gm_error *error)
 {
     gm_sha256 *sum = gm_sha256_create();
     if (!sum)
@@ -165,9 +150,7 @@ gm_status gm_meta_sweep(const gm_map *map, char text[65], gm_error *error)
         for (int g = 0; g < map->paths[p].n_gears; g++)
             gm_sha256_int(sum, map->paths[p].gears[g].number);
     }
-    gm_sha256_int(sum, map->n_tables);
-    for (int t = 0; t < map->n_tables; t++)
-        add_key(sum, &map->tables[t]);
+    gm_sha256_int(sum, (long long)record);
     gm_sha256_finish(sum, text);
     gm_sha256_destroy(sum);
     return GM_OK;

@@ -30,8 +30,9 @@ GM_NODISCARD gm_status gm_meta_read(const gm_db *db, gm_map *map, gm_error *erro
 GM_NODISCARD gm_status gm_meta_provenance(const gm_map *map, char text[65],
                                           gm_error *error);
 
-/** Hash of what makes a sweep the same: tool version, input, options, names, gears, keys
- *  and axes in their order. */
-GM_NODISCARD gm_status gm_meta_sweep(const gm_map *map, char text[65], gm_error *error);
+/** Hash of what makes a sweep the same: tool version, input, options, names and gears,
+ *  and the size of the journal's records. */
+GM_NODISCARD gm_status gm_meta_sweep(const gm_map *map, size_t record, char text[65],
+                                     gm_error *error);
 
 #endif

@@ -55,18 +55,18 @@ gm_status gm_place_check(const char *path, gm_error *error)
     return status;
 }
 
-static char *join(const char *name, const char *suffix)
+char *gm_place_name(const char *path, const char *suffix)
 {
-    size_t size = strlen(name) + strlen(suffix) + 1;
+    size_t size = strlen(path) + strlen(suffix) + 1;
     char *joined = gm_calloc(size, 1);
     if (joined)
-        (void)snprintf(joined, size, "%s%s", name, suffix);
+        (void)snprintf(joined, size, "%s%s", path, suffix);
     return joined;
 }
 
 char *gm_place_journal(const char *path)
 {
-    return join(path, JOURNAL_SUFFIX);
+    return gm_place_name(path, JOURNAL_SUFFIX);
 }
 
 bool gm_place_exists(const char *path)
@@ -79,11 +79,40 @@ void gm_place_remove(const char *database)
 {
     static const char *const suffixes[] = {"", "-journal", "-wal", "-shm"};
     for (size_t i = 0; i < sizeof suffixes / sizeof *suffixes; i++) {
-        char *name = join(database, suffixes[i]);
+        char *name = gm_place_name(database, suffixes[i]);
         if (name)
             (void)unlink(name);
         gm_free(name);
     }
+}
+
+static bool write_all(int descriptor, const unsigned char *bytes, size_t size)
+{
+    while (size > 0) {
+        ssize_t n = write(descriptor, bytes, size);
+        if (n < 0 && errno == EINTR)
+            continue;
+        if (n <= 0)
+            return false;
+        bytes += n;
+        size -= (size_t)n;
+    }
+    return fsync(descriptor) == 0;
+}
+
+gm_status gm_place_write(const char *path, const void *bytes, size_t size,
+                         gm_error *error)
+{
+    int descriptor = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    bool written = descriptor >= 0 && write_all(descriptor, bytes, size);
+    int why = errno;
+    if (descriptor >= 0 && close(descriptor) != 0 && written) {
+        why = errno;
+        written = false;
+    }
+    if (written)
+        return GM_OK;
+    return gm_fail(error, GM_ERR_IO, "%s cannot be written: %s", path, strerror(why));
 }
 
 gm_status gm_place_rename(const char *from, const char *to, gm_error *error)

@@ -8,6 +8,7 @@
 #include "base/gm_status.h"
 
 #include <stdbool.h>
+#include <stddef.h>
 
 /** GM_ERR_IO unless a file can be made at path: its folder exists and can be written,
  *  and path is not a folder or device. Makes nothing. */
@@ -15,6 +16,13 @@ GM_NODISCARD gm_status gm_place_check(const char *path, gm_error *error);
 
 /** Name of the journal, "<path>.part"; NULL when there is no memory. */
 char *gm_place_journal(const char *path);
+
+/** The name with a suffix; NULL when there is no memory. */
+char *gm_place_name(const char *path, const char *suffix);
+
+/** Write a file whole, in place of what was there, down to the disk. GM_ERR_IO. */
+GM_NODISCARD gm_status gm_place_write(const char *path, const void *bytes, size_t size,
+                                      gm_error *error);
 
 /** True when there is something of this name. */
 bool gm_place_exists(const char *path);

@@ -45,23 +45,39 @@ static int first_from(const gm_nodes *nodes, double x)
     return i;
 }
 
-void gm_nodes_include(double x, int n_max, gm_nodes *nodes)
+/* Place of a new node x, 0: none, it is outside or on a node. */
+static int place_for(const gm_nodes *nodes, double x)
 {
     int i = first_from(nodes, x);
-    if (i == 0 || i == nodes->n)
+    if (i == 0 || i == nodes->n ||
+        fmin(x - nodes->x[i - 1], nodes->x[i] - x) <= 1e-9 * fabs(x))
+        return 0;
+    return i;
+}
+
+void gm_nodes_add(double x, int n_max, gm_nodes *nodes)
+{
+    int i = place_for(nodes, x);
+    if (i == 0 || nodes->n >= n_max || nodes->n >= GM_NODES_MAX)
         return;
-    double below = x - nodes->x[i - 1], above = nodes->x[i] - x;
-    if (fmin(below, above) <= 1e-9 * fabs(x))
+    size_t tail = (size_t)(nodes->n - i);
+    memmove(&nodes->x[i + 1], &nodes->x[i], tail * sizeof nodes->x[0]);
+    nodes->x[i] = x;
+    nodes->n++;
+}
+
+void gm_nodes_include(double x, int n_max, gm_nodes *nodes)
+{
+    int i = place_for(nodes, x);
+    if (i == 0)
         return;
     if (nodes->n < n_max && nodes->n < GM_NODES_MAX) {
-        size_t tail = (size_t)(nodes->n - i);
-        memmove(&nodes->x[i + 1], &nodes->x[i], tail * sizeof nodes->x[0]);
-        nodes->x[i] = x;
-        nodes->n++;
+        gm_nodes_add(x, n_max, nodes);
         return;
     }
     if (nodes->n < 3)
         return;
+    double below = x - nodes->x[i - 1], above = nodes->x[i] - x;
     int nearest = below < above ? i - 1 : i;
     if (nearest == 0)
         nearest = 1;

@@ -38,6 +38,10 @@ GM_NODISCARD gm_status gm_nodes_uniform(double max, double step, const char *wha
  *  within 1e-9 of it. */
 void gm_nodes_include(double x, int n_max, gm_nodes *nodes);
 
+/** Add x as a node while there are fewer than n_max; nothing happens outside or on a
+ *  node. */
+void gm_nodes_add(double x, int n_max, gm_nodes *nodes);
+
 /** Continue to the end with n more nodes in equal ratios. end > last node > 0. */
 void gm_nodes_extend(double end, int n, gm_nodes *nodes);
 

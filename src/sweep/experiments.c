@@ -7,19 +7,21 @@
    side of it: above rounding, far below what friction notices. */
 #define LINE_DISTANCE 1e-11
 
-typedef struct row {
+/* One place of a table: what is known there, and the point that is solved for it. */
+typedef struct place {
     const gm_sweep_plan *plan;
-    const gm_job *job;
     const gm_map_table *table;
-    gm_steady_solver *solver;
+    const double *x;
+    gm_point_solver *solver;
     gm_error *error;
+    double line_end; /* output speed at which a line has left the range of its path */
     gm_steady_point point;
     gm_steady_result result;
-} row;
+} place;
 
-static gm_status solve(row *r)
+static gm_status solve(place *p)
 {
-    return gm_steady_solve(r->solver, &r->point, &r->result, r->error);
+    return gm_point_solve(p->solver, &p->point, &p->result, p->error);
 }
 
 static double sign_of(int direction)
@@ -32,148 +34,150 @@ static double sgn(double x)
     return (double)(x > 0) - (double)(x < 0);
 }
 
-static void set_flange(row *r, int flange, double speed, double direction)
+static void set_flange(place *p, int flange, double speed, double direction)
 {
-    r->point.speed[flange] = speed;
-    r->point.direction[flange] = direction;
+    p->point.speed[flange] = speed;
+    p->point.direction[flange] = direction;
 }
 
-static double coupling(const gm_sweep_plan *plan, double relative_speed)
+static void set_gears(place *p)
 {
+    for (int q = 0; q < p->plan->map->n_paths; q++)
+        p->point.gear[q] = p->table->key.gear[q];
+}
+
+/* ---- tables of earlier phases, as the reduced gearset will read them ---- */
+
+static double read1(const place *p, const gm_map_table *t, double x)
+{
+    gm_table1 view = {{t->n[0], t->x[0]}, t->value, p->plan->monotone};
     gm_cell1 cell = {0};
-    if (!plan->coupling.value)
-        return 0.0;
-    return gm_table1_at(&plan->coupling, 1, &cell, relative_speed).value;
+    return gm_table1_at(&view, 1, &cell, x).value;
 }
 
-static double *row_values(const gm_map *map, int table, int index)
+static double coupling(const place *p, double relative_speed)
 {
-    const gm_map_table *t = &map->tables[table];
-    return t->value + (long)index * gm_map_row_size(t);
+    gm_table_key key = gm_table_key_of(GM_COUPLING);
+    const gm_map_table *table = gm_map_find(p->plan->map, &key);
+    return table ? read1(p, table, relative_speed) : 0.0;
 }
 
-static gm_status coupling_row(row *r)
+/* |r_q| D_q, so that P + D + X is exact at the nodes of X. */
+static double load_loss(const place *p, int q, double w_o, double torque)
 {
-    double delta = r->table->x[0][r->job->row], torque[2] = {0.0, 0.0};
-    set_flange(r, 0, 0.0, 1.0);
-    set_flange(r, 1, 0.0, 1.0);
+    double ratio = gm_sweep_ratio(p->plan->map, q, p->table->key.gear[q]);
+    int backward = ratio * sign_of(p->table->key.direction[0]) < 0;
+    gm_table_key key = gm_sweep_load_key(q, p->table->key.gear[q], backward);
+    const gm_map_table *d = gm_map_find(p->plan->map, &key);
+    gm_table2 view = {
+        {d->n[0], d->x[0]}, {d->n[1], d->x[1]}, d->value, p->plan->monotone};
+    gm_cell2 cell = {0};
+    return fabs(ratio) * gm_table2_at(&view, 1, &cell, fabs(ratio) * w_o, torque).value;
+}
+
+/* ---- the experiments ---- */
+
+static gm_status coupling_at(place *p, gm_sample *found)
+{
+    double delta = p->x[0], torque[2] = {0.0, 0.0};
+    set_flange(p, 0, 0.0, 1.0);
+    set_flange(p, 1, 0.0, 1.0);
     for (int side = 0; side < 2 && delta != 0.0; side++) {
         double speed = side ? delta : -delta;
-        set_flange(r, 2, speed, sgn(speed));
-        gm_status status = solve(r);
+        set_flange(p, 2, speed, sgn(speed));
+        gm_status status = solve(p);
         if (status != GM_OK)
             return status;
-        torque[side] = r->result.torque[1];
+        torque[side] = p->result.torque[1];
     }
-    *row_values(r->plan->map, r->job->table, r->job->row) = 0.5 * (torque[0] - torque[1]);
+    found->value[0] = 0.5 * (torque[0] - torque[1]);
+    found->size[0] = fmax(fabs(torque[0]), fabs(torque[1]));
     return GM_OK;
 }
 
-/* The output speed of a node of a line. Past the first node at which the line has left
-   the range of the path the jump only has to continue: it stays. */
-static double line_speed(const row *r, double ratio)
-{
-    double leaves = r->plan->map->speed_max / fabs(ratio);
-    int node = 0;
-    while (node < r->job->row && r->table->x[0][node] < leaves)
-        node++;
-    return r->table->x[0][node];
-}
-
 /* At the line the output's direction counts for nothing, unless it stands still: then the
-   flanges start along the line. */
-static gm_status line_row(row *r)
+   flanges start along the line. Past the end of the line the jump only has to continue:
+   it stays. */
+static gm_status line_at(place *p, gm_sample *found)
 {
-    const gm_map *map = r->plan->map;
-    int p = r->table->key.path;
-    double ratio = r->table->key.line;
-    double sigma = sign_of(r->table->key.direction[0]);
-    double w = sigma * line_speed(r, ratio);
+    int path = p->table->key.path;
+    double ratio = p->table->key.line;
+    double sigma = sign_of(p->table->key.direction[0]);
+    double w = sigma * fmin(p->x[0], p->line_end);
     double drag[2];
     for (int side = 0; side < 2; side++) {
         double past = side ? 1.0 : -1.0;
         double along = w == 0.0 ? sigma : 0.0;
-        set_flange(r, 0, w, along);
-        set_flange(r, 1 + p, ratio * w + past * LINE_DISTANCE * fabs(ratio * w),
+        set_flange(p, 0, w, along);
+        set_flange(p, 1 + path, ratio * w + past * LINE_DISTANCE * fabs(ratio * w),
                    along * ratio + past * 1e-3 * fabs(ratio));
-        gm_status status = solve(r);
+        gm_status status = solve(p);
         if (status != GM_OK)
             return status;
-        drag[side] = r->result.torque[1 + p];
+        drag[side] = p->result.torque[1 + path];
     }
-    *row_values(map, r->job->table, r->job->row) = fmax(0.0, drag[1] - drag[0]);
+    found->value[0] = fmax(0.0, drag[1] - drag[0]);
+    found->size[0] = fmax(fabs(drag[0]), fabs(drag[1]));
     return GM_OK;
 }
 
-static gm_status reference_row(row *r)
+static gm_status parasitic_at(place *p, gm_sample *found)
 {
-    double sigma = sign_of(r->job->table);
-    set_flange(r, 0, sigma * r->plan->reference_speed[r->job->row], sigma);
-    gm_status status = solve(r);
-    if (status == GM_OK)
-        r->plan->reference[r->job->table][r->job->row] = r->result.torque[0];
-    return status;
-}
-
-static void set_gears(row *r)
-{
-    for (int p = 0; p < r->plan->map->n_paths; p++)
-        r->point.gear[p] = r->table->key.gear[p];
-}
-
-static gm_status parasitic_row(row *r)
-{
-    double sigma = sign_of(r->table->key.direction[0]);
-    set_gears(r);
-    set_flange(r, 0, sigma * r->table->x[0][r->job->row], sigma);
-    gm_status status = solve(r);
-    if (status == GM_OK)
-        *row_values(r->plan->map, r->job->table, r->job->row) =
-            sigma * r->result.torque[0];
+    double sigma = sign_of(p->table->key.direction[0]);
+    set_gears(p);
+    set_flange(p, 0, sigma * p->x[0], sigma);
+    gm_status status = solve(p);
+    if (status == GM_OK) {
+        found->value[0] = sigma * p->result.torque[0];
+        found->size[0] = fabs(found->value[0]);
+    }
     return status;
 }
 
 /* The path must turn as the kinematics say that gave its ratio. */
-static gm_status check_speed(const row *r, int p, double w_p)
+static gm_status check_speed(const place *p, int path, double w_p)
 {
-    double found = r->result.speed[1 + p];
-    if (fabs(found - w_p) <= 1e-9 * r->plan->map->speed_max)
+    double found = p->result.speed[1 + path];
+    if (fabs(found - w_p) <= 1e-9 * p->plan->map->speed_max)
         return GM_OK;
-    return gm_fail(r->error, GM_ERR_MODEL,
+    return gm_fail(p->error, GM_ERR_MODEL,
                    "path '%s', gear %d: at %g rad/s of the output the path turns at %g "
                    "rad/s, by its ratio it should at %g rad/s",
-                   r->plan->map->paths[p].name, r->point.gear[p], r->point.speed[0],
+                   p->plan->map->paths[path].name, p->point.gear[path], p->point.speed[0],
                    found, w_p);
 }
 
-/* First T_o over the torques, then what of it belongs to zero torque becomes P and the
-   rest D. */
-static gm_status load_row(row *r)
+/* P + |r_p| D_p at a torque of the path. */
+static gm_status loss_at(place *p, double torque, double *loss)
 {
-    const gm_map_table *table = r->table;
-    int p = table->key.path, n = table->n[1], zero = n / 2;
-    double ratio = gm_sweep_ratio(r->plan->map, p, table->key.gear[p]);
-    double sigma_p = sign_of(table->key.direction[0]), sigma = sgn(ratio) * sigma_p;
-    double w_p = sigma_p * table->x[0][r->job->row];
-    double from_neutral = coupling(r->plan, -w_p);
-    double *value = row_values(r->plan->map, r->job->table, r->job->row);
-    r->point.gear[p] = table->key.gear[p];
-    set_flange(r, 0, w_p / ratio, sigma);
-    for (int j = 0; j < n; j++) {
-        r->point.torque[1 + p] = sigma_p * table->x[1][j] - from_neutral;
-        gm_status status = solve(r);
-        if (status == GM_OK)
-            status = check_speed(r, p, w_p);
-        if (status != GM_OK)
-            return status;
-        value[j] = sigma * (r->result.torque[0] + ratio * sigma_p * table->x[1][j]);
-    }
-    double parasitic = value[zero];
-    for (int j = 0; j < n; j++)
-        value[j] = (value[j] - parasitic) / fabs(ratio);
-    if (r->job->companion >= 0)
-        *row_values(r->plan->map, r->job->companion, r->job->row) = parasitic;
-    return GM_OK;
+    int path = p->table->key.path;
+    double ratio = gm_sweep_ratio(p->plan->map, path, p->table->key.gear[path]);
+    double sigma_p = sign_of(p->table->key.direction[0]), sigma = sgn(ratio) * sigma_p;
+    double w_p = sigma_p * p->x[0];
+    p->point.gear[path] = p->table->key.gear[path];
+    p->point.torque[1 + path] = sigma_p * torque - coupling(p, -w_p);
+    set_flange(p, 0, w_p / ratio, sigma);
+    gm_status status = solve(p);
+    if (status == GM_OK)
+        status = check_speed(p, path, w_p);
+    if (status == GM_OK)
+        *loss = sigma * (p->result.torque[0] + ratio * sigma_p * torque);
+    return status;
+}
+
+/* What of the loss belongs to zero torque is P, the rest D. */
+static gm_status load_at(place *p, gm_sample *found)
+{
+    int path = p->table->key.path;
+    double ratio = gm_sweep_ratio(p->plan->map, path, p->table->key.gear[path]);
+    double loss = 0.0, parasitic = 0.0;
+    gm_status status = loss_at(p, p->x[1], &loss);
+    if (status == GM_OK)
+        status = loss_at(p, 0.0, &parasitic);
+    found->value[0] = loss / fabs(ratio);
+    found->value[1] = (loss - parasitic) / fabs(ratio);
+    found->size[0] = found->size[1] = fabs(found->value[0]);
+    return status;
 }
 
 /* The jumps' share of N (and by -ratio of R) at the present point. */
@@ -181,116 +185,183 @@ typedef struct steps {
     double drag, reaction;
 } steps;
 
-static steps steps_at(const row *r, int p, int output_direction, int output_node)
+static steps steps_at(const place *p, int path, int output_direction)
 {
-    const gm_sweep_plan *plan = r->plan;
+    const gm_sweep_plan *plan = p->plan;
     double sigma = sign_of(output_direction);
-    int at_rest = r->point.speed[0] == 0.0 && r->point.speed[1 + p] == 0.0;
-    const double *w = at_rest ? r->point.direction : r->point.speed;
+    int at_rest = p->point.speed[0] == 0.0 && p->point.speed[1 + path] == 0.0;
+    const double *w = at_rest ? p->point.direction : p->point.speed;
     steps sum = {0.0, 0.0};
-    for (int i = 0; i < plan->n_lines[p]; i++) {
-        double ratio = plan->line[p][i];
-        gm_table_key key = gm_sweep_line_key(p, ratio, output_direction);
-        double half = 0.5 * gm_map_find(plan->map, &key)->value[output_node];
-        double side = sgn(w[1 + p] - ratio * w[0]);
+    for (int i = 0; i < plan->n_lines[path]; i++) {
+        double ratio = plan->line[path][i];
+        gm_table_key key = gm_sweep_line_key(path, ratio, output_direction);
+        double half = 0.5 * read1(p, gm_map_find(plan->map, &key), p->x[1]);
+        double side = sgn(w[1 + path] - ratio * w[0]);
         sum.drag += half * side;
         sum.reaction -= ratio * half * (side - sgn(-ratio * sigma));
     }
     return sum;
 }
 
-/* A node that happens to lie on a line is taken just above it. */
-static void leave_lines(row *r, int p)
+/* A point that happens to lie on a line is taken just above it. */
+static void leave_lines(place *p, int path)
 {
-    for (int i = 0; i < r->plan->n_lines[p]; i++) {
-        double on = r->plan->line[p][i] * r->point.speed[0];
+    for (int i = 0; i < p->plan->n_lines[path]; i++) {
+        double on = p->plan->line[path][i] * p->point.speed[0];
         double distance = LINE_DISTANCE * fabs(on);
-        if (r->point.speed[1 + p] != 0.0 && fabs(r->point.speed[1 + p] - on) < distance)
-            r->point.speed[1 + p] = on + distance;
+        if (p->point.speed[1 + path] != 0.0 &&
+            fabs(p->point.speed[1 + path] - on) < distance)
+            p->point.speed[1 + path] = on + distance;
     }
 }
 
-static gm_status drag_row(row *r)
+/* Torque of the output with the path at rest. */
+static gm_status reference_at(place *p, int path, double *torque)
 {
-    const gm_map_table *table = r->table;
-    int p = table->key.path, direction = table->key.direction[1];
-    double sigma_n = sign_of(table->key.direction[0]), sigma_o = sign_of(direction);
-    double w_n = sigma_n * table->x[0][r->job->row];
-    double *drag = row_values(r->plan->map, r->job->table, r->job->row);
-    double *reaction = row_values(r->plan->map, r->job->companion, r->job->row);
-    for (int j = 0; j < table->n[1]; j++) {
-        set_flange(r, 0, sigma_o * table->x[1][j], sigma_o);
-        set_flange(r, 1 + p, w_n, sigma_n);
-        leave_lines(r, p);
-        gm_status status = solve(r);
-        if (status != GM_OK)
-            return status;
-        steps step = steps_at(r, p, direction, j);
-        double total = r->result.torque[0] - r->plan->reference[direction][j];
-        drag[j] = r->result.torque[1 + p] - coupling(r->plan, w_n) - step.drag;
-        reaction[j] = w_n == 0.0 ? 0.0 : total - step.reaction;
-    }
+    double speed = p->point.speed[1 + path], direction = p->point.direction[1 + path];
+    set_flange(p, 1 + path, 0.0, 0.0);
+    gm_status status = solve(p);
+    *torque = p->result.torque[0];
+    set_flange(p, 1 + path, speed, direction);
+    return status;
+}
+
+static gm_status drag_at(place *p, gm_sample *found)
+{
+    int path = p->table->key.path, direction = p->table->key.direction[1];
+    double sigma_n = sign_of(p->table->key.direction[0]), sigma_o = sign_of(direction);
+    double w_n = sigma_n * p->x[0], reference = 0.0;
+    set_flange(p, 0, sigma_o * p->x[1], sigma_o);
+    set_flange(p, 1 + path, w_n, sigma_n);
+    leave_lines(p, path);
+    gm_status status = reference_at(p, path, &reference);
+    if (status == GM_OK)
+        status = solve(p);
+    if (status != GM_OK)
+        return status;
+    steps step = steps_at(p, path, direction);
+    double total = p->result.torque[0] - reference;
+    found->value[0] = p->result.torque[1 + path] - coupling(p, w_n) - step.drag;
+    found->value[1] = w_n == 0.0 ? 0.0 : total - step.reaction;
+    found->size[0] = fabs(p->result.torque[1 + path]);
+    found->size[1] = fabs(total);
     return GM_OK;
 }
 
-/* |r_p| D_p as the reduced gearset will interpolate it, so that P + D + X is exact at the
-   nodes of X. */
-static double load_loss(const row *r, int p, double w_o, double torque)
+/* sigma (T_o + sum r_q tau_q): the loss at the output with both paths under load. */
+static gm_status both_loss(place *p, const double *torque, double *loss)
 {
-    const gm_map *map = r->plan->map;
-    double ratio = gm_sweep_ratio(map, p, r->table->key.gear[p]);
-    int backward = ratio * sign_of(r->table->key.direction[0]) < 0;
-    gm_table_key key = gm_sweep_load_key(p, r->table->key.gear[p], backward);
-    const gm_map_table *d = gm_map_find(map, &key);
-    gm_table2 view = {{d->n[0], d->x[0]}, {d->n[1], d->x[1]}, d->value, 0};
-    gm_cell2 cell = {0};
-    return fabs(ratio) * gm_table2_at(&view, 1, &cell, fabs(ratio) * w_o, torque).value;
-}
-
-static gm_status both_row(row *r)
-{
-    const gm_map_table *table = r->table;
-    const gm_map *map = r->plan->map;
-    double sigma = sign_of(table->key.direction[0]), w_o = table->x[0][r->job->row];
-    double ratio[2], *value = row_values(map, r->job->table, r->job->row);
-    for (int p = 0; p < 2; p++)
-        ratio[p] = gm_sweep_ratio(map, p, table->key.gear[p]);
-    set_gears(r);
-    set_flange(r, 0, sigma * w_o, sigma);
-    int n_0 = table->n[1], n_1 = table->n[2];
-    for (int k = 0; k < n_0 * n_1; k++) {
-        double torque[2] = {table->x[1][k / n_1], table->x[2][k % n_1]};
-        double sum = 0.0;
-        for (int p = 0; p < 2; p++) {
-            r->point.torque[1 + p] = sgn(ratio[p]) * sigma * torque[p];
-            sum += ratio[p] * r->point.torque[1 + p];
-        }
-        gm_status status = solve(r);
-        if (status != GM_OK)
-            return status;
-        value[k] = sigma * (r->result.torque[0] + sum) - load_loss(r, 0, w_o, torque[0]) -
-                   load_loss(r, 1, w_o, torque[1]);
+    double sigma = sign_of(p->table->key.direction[0]), sum = 0.0;
+    for (int q = 0; q < 2; q++) {
+        double ratio = gm_sweep_ratio(p->plan->map, q, p->table->key.gear[q]);
+        p->point.torque[1 + q] = sgn(ratio) * sigma * torque[q];
+        sum += ratio * p->point.torque[1 + q];
     }
-    double parasitic = value[(n_0 / 2) * n_1 + n_1 / 2];
-    for (int k = 0; k < n_0 * n_1; k++)
-        value[k] -= parasitic;
-    return GM_OK;
+    gm_status status = solve(p);
+    *loss = sigma * (p->result.torque[0] + sum);
+    return status;
 }
 
-gm_status gm_experiment_row(const gm_sweep_plan *plan, const gm_job *job,
-                            gm_steady_solver *solver, gm_error *error)
+static gm_status both_at(place *p, gm_sample *found)
 {
-    static gm_status (*const experiment[GM_JOB_KINDS])(row *) = {
-        [GM_JOB_COUPLING] = coupling_row,   [GM_JOB_LINE] = line_row,
-        [GM_JOB_REFERENCE] = reference_row, [GM_JOB_PARASITIC] = parasitic_row,
-        [GM_JOB_LOAD] = load_row,           [GM_JOB_DRAG] = drag_row,
-        [GM_JOB_BOTH] = both_row,
+    const double none[2] = {0.0, 0.0};
+    double sigma = sign_of(p->table->key.direction[0]), w_o = p->x[0];
+    double loss = 0.0, parasitic = 0.0;
+    set_gears(p);
+    set_flange(p, 0, sigma * w_o, sigma);
+    gm_status status = both_loss(p, none, &parasitic);
+    if (status == GM_OK)
+        status = both_loss(p, &p->x[1], &loss);
+    double both = loss - load_loss(p, 0, w_o, p->x[1]) - load_loss(p, 1, w_o, p->x[2]);
+    found->value[0] = both - parasitic;
+    found->size[0] = fabs(loss);
+    return status;
+}
+
+/* ---- samples and rows ---- */
+
+static place place_of(const gm_sweep_plan *plan, const gm_unit *unit,
+                      gm_point_solver *solver, gm_error *error)
+{
+    place p = {.plan = plan,
+               .table = &plan->map->tables[unit->table],
+               .solver = solver,
+               .error = error,
+               .line_end = HUGE_VAL};
+    if (unit->kind == GM_UNIT_LINE)
+        p.line_end = plan->map->speed_max / fabs(p.table->key.line);
+    return p;
+}
+
+static gm_status sample_at(place *p, const gm_unit *unit, gm_sample *sample)
+{
+    static gm_status (*const experiment[GM_UNIT_KINDS])(place *, gm_sample *) = {
+        [GM_UNIT_COUPLING] = coupling_at,   [GM_UNIT_LINE] = line_at,
+        [GM_UNIT_PARASITIC] = parasitic_at, [GM_UNIT_LOAD] = load_at,
+        [GM_UNIT_DRAG] = drag_at,           [GM_UNIT_BOTH] = both_at,
     };
-    row r = {.plan = plan, .job = job, .solver = solver, .error = error};
-    for (int p = 0; p < plan->map->n_paths; p++)
-        r.point.gear[p] = gm_sweep_rest_gear(plan->plant, p);
-    if (job->kind != GM_JOB_REFERENCE)
-        r.table = &plan->map->tables[job->table];
-    gm_steady_solver_restart(solver);
-    return experiment[job->kind](&r);
+    p->point = (gm_steady_point){{0}, {0.0}, {0.0}, {0.0}};
+    for (int q = 0; q < p->plan->map->n_paths; q++)
+        p->point.gear[q] = gm_sweep_rest_gear(p->plan->plant, q);
+    return experiment[unit->kind](p, sample);
+}
+
+gm_status gm_experiment_at(const gm_sweep_plan *plan, const gm_unit *unit,
+                           const double *x, gm_point_solver *solver, gm_sample *sample,
+                           gm_error *error)
+{
+    place p = place_of(plan, unit, solver, error);
+    gm_sample found = {{0.0}, {0.0}};
+    p.x = x;
+    gm_status status = sample_at(&p, unit, &found);
+    if (status == GM_OK)
+        *sample = found;
+    return status;
+}
+
+/* The jump of a line is measured up to the first node at which it has left the range. */
+static void extend_line(place *p)
+{
+    int node = 0;
+    while (node + 1 < p->table->n[0] && p->table->x[0][node] < p->line_end)
+        node++;
+    p->line_end = p->table->x[0][node];
+}
+
+static void put(const gm_sweep_plan *plan, const gm_unit *unit, int row, int column,
+                const double *x, const gm_sample *sample)
+{
+    gm_map_table *table = &plan->map->tables[unit->table];
+    double *to = &table->value[row * gm_map_row_size(table) + column];
+    *to = sample->value[unit->kind == GM_UNIT_LOAD];
+    if (unit->companion < 0)
+        return;
+    gm_map_table *companion = &plan->map->tables[unit->companion];
+    if (unit->kind == GM_UNIT_DRAG)
+        companion->value[row * gm_map_row_size(companion) + column] = sample->value[1];
+    else if (x[1] == 0.0)
+        companion->value[row] =
+            sample->value[0] * fabs(gm_sweep_ratio(plan->map, table->key.path,
+                                                   table->key.gear[table->key.path]));
+}
+
+gm_status gm_experiment_row(const gm_sweep_plan *plan, const gm_unit *unit, int row,
+                            gm_point_solver *solver, gm_error *error)
+{
+    place p = place_of(plan, unit, solver, error);
+    const gm_map_table *t = p.table;
+    double x[GM_MAX_AXES] = {t->x[0][row], 0.0, 0.0};
+    gm_status status = GM_OK;
+    p.x = x;
+    if (unit->kind == GM_UNIT_LINE)
+        extend_line(&p);
+    for (int i = 0; i < gm_map_row_size(t) && status == GM_OK; i++) {
+        gm_sample sample = {{0.0}, {0.0}};
+        x[1] = t->n_axes > 1 ? t->x[1][i / t->n[2]] : 0.0;
+        x[2] = t->n_axes > 2 ? t->x[2][i % t->n[2]] : 0.0;
+        status = sample_at(&p, unit, &sample);
+        if (status == GM_OK)
+            put(plan, unit, row, i, x, &sample);
+    }
+    return status;
 }

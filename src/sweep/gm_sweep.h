@@ -18,24 +18,43 @@ typedef struct gm_sweep_options {
     double torque_step; /* uniform torque axis, N.m */
     double speed_max;   /* rad/s at the input flange */
     double torque_max;  /* N.m at the input flange */
+    /* Axes by error: nodes are added until points held out are within the tolerance,
+       which is the larger one of both. Both zero: automatic axes, or the steps. */
+    double tolerance_share;  /* of the largest loss of the gear; below 1 */
+    double tolerance_torque; /* N.m at the flange where the loss is */
+    int monotone; /* how the tables will be read: 0 linearly, 1 by monotone cubics */
     int threads;
 } gm_sweep_options;
 
+/** Every point is an operating point that is solved once. With axes by error the total
+ *  is what is known so far, and grows. */
 typedef struct gm_sweep_progress {
     long points_done, points_total; /* resumed ones included */
     long points_resumed;
-    double elapsed; /* s */
+    double worst_error; /* at points held out so far, of the largest loss of their table;
+                           NAN: none, or axes not by error */
+    double elapsed;     /* s */
 } gm_sweep_progress;
 
-/** Called from one thread at a time, a few times a second; return non-zero to stop (the
- *  sweep then answers GM_ERR_INTERRUPTED and keeps its journal). */
+/** Called from one thread at a time, between points, a few times a second; return
+ *  non-zero to stop (the sweep then answers GM_ERR_INTERRUPTED and keeps its journal). */
 typedef int (*gm_sweep_report)(void *user, const gm_sweep_progress *progress);
+
+/** Tables of one symbol whose axes could not be made fine enough. */
+typedef struct gm_sweep_missed {
+    int tables, of;            /* how many missed the tolerance, of all of the symbol */
+    gm_table_key key;          /* the one with the largest error */
+    int n[GM_MAX_AXES];        /* its nodes */
+    double error;              /* of the largest loss */
+    double worst[GM_MAX_AXES]; /* where: coordinates of its axes, SI */
+} gm_sweep_missed;
 
 typedef struct gm_sweep_summary {
     long points; /* solved now, without resumed ones */
     long resumed;
-    double elapsed;                 /* s */
-    double largest_ratio_deviation; /* identified against given ratios, relative */
+    double elapsed;                     /* s */
+    double largest_ratio_deviation;     /* identified against given ratios, relative */
+    gm_sweep_missed missed[GM_SYMBOLS]; /* by symbol, axes by error only */
 } gm_sweep_summary;
 
 /** Run. path: the map's file, or NULL: in memory only. report and summary may be NULL.
@@ -45,7 +64,8 @@ typedef struct gm_sweep_summary {
  *  GM_ERR_MODEL: an identified ratio differs from the given one by more than 1e-3 or in
  *  sign, or the tables would not give a unique solution (|dD/dtau| >= 1).
  *  GM_ERR_SOLVE: a point has no solution; it is named. GM_ERR_IO, GM_ERR_MEMORY.
- *  Only GM_ERR_INTERRUPTED leaves a file behind. */
+ *  Only GM_ERR_INTERRUPTED, GM_ERR_IO and GM_ERR_MEMORY leave a journal behind: repeated,
+ *  the others would end in the same way. */
 GM_NODISCARD gm_status gm_sweep_run(const gm_plant *plant,
                                     const gm_sweep_options *options, const char *path,
                                     gm_sweep_report report, void *user, gm_map **map,

@@ -6,6 +6,7 @@
 #ifndef GM_VERIFY_H
 #define GM_VERIFY_H
 
+#include "map/gm_map.h"
 #include "plant/gm_plant.h"
 
 #include <stdint.h>
@@ -76,6 +77,16 @@ GM_NODISCARD gm_status gm_verify_steady(const gm_plant *plant,
                                         const gm_reduced_probe *probe, int points,
                                         uint64_t seed, gm_verify_result *result,
                                         gm_error *error);
+/** The same for a map, by the reduced gearset in this program. monotone: how the tables
+ *  are read. As above, and GM_ERR_FORMAT when the map is not complete. */
+GM_NODISCARD gm_status gm_verify_map(const gm_plant *plant, const gm_map *map,
+                                     int monotone, int points, uint64_t seed,
+                                     gm_verify_result *result, gm_error *error);
+
+/** What the reduced gearset of a map answers at a point. */
+void gm_verify_view(const gm_map_view *view, const gm_steady_point *point,
+                    double output_torque, gm_reduced_answer *answer);
+
 void gm_verify_result_clear(gm_verify_result *result);
 
 #ifdef __cplusplus

@@ -5,7 +5,6 @@
 #include "sweep/axes.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Nodes of the automatic axes, chosen for the smallest error of the example at random
    points between them; see axes.h. Kinks may add a few. The two torques next to zero are
@@ -122,21 +121,18 @@ static gm_status add_table(builder *b, const gm_table_key *key, int n_axes, int 
     return gm_map_add_table(b->map, key, n_axes, n, x, index, b->error);
 }
 
-static gm_status add_jobs(builder *b, gm_job first, int rows)
+static gm_status add_unit(builder *b, gm_unit unit)
 {
     gm_sweep_plan *plan = b->plan;
-    if (plan->n_jobs + rows > plan->jobs_size) {
-        int size = 2 * (plan->n_jobs + rows);
-        gm_job *jobs = gm_resize(plan->jobs, (size_t)size, sizeof *jobs);
-        if (!jobs)
+    if (plan->n_units == plan->units_size) {
+        int size = 2 * plan->n_units + 16;
+        gm_unit *units = gm_resize(plan->units, (size_t)size, sizeof *units);
+        if (!units)
             return gm_fail(b->error, GM_ERR_MEMORY, "no memory for the sweep's plan");
-        plan->jobs = jobs;
-        plan->jobs_size = size;
+        plan->units = units;
+        plan->units_size = size;
     }
-    for (int i = 0; i < rows; i++) {
-        first.row = i;
-        plan->jobs[plan->n_jobs++] = first;
-    }
+    plan->units[plan->n_units++] = unit;
     return GM_OK;
 }
 
@@ -212,19 +208,19 @@ static void free_axes(builder *b)
                    &b->free_output);
 }
 
-/* --- tables and their jobs -------------------------------------------------------- */
+/* --- tables and their units ------------------------------------------------------- */
 
 static gm_status plan_coupling(builder *b)
 {
     gm_table_key key = gm_table_key_of(GM_COUPLING);
-    gm_job job = {GM_JOB_COUPLING, 1, 0, -1, 0, 2};
+    gm_unit unit = {GM_UNIT_COUPLING, 1, 0, -1};
     /* Two shafts may turn against each other at full speed. A friction that jumps at zero
        rises over the first cell, which is that of P and D: P(0) holds the jump. */
     gm_nodes_power(COUPLING_NODES, 2.0 * b->map->speed_max, COUPLING_POWER, &b->axis[0]);
     gm_nodes_include(b->first_speed, COUPLING_NODES + 1, &b->axis[0]);
     gm_nodes_mirror(&b->axis[0]);
-    gm_status status = add_table(b, &key, 1, &job.table);
-    return status != GM_OK ? status : add_jobs(b, job, b->axis[0].n);
+    gm_status status = add_table(b, &key, 1, &unit.table);
+    return status != GM_OK ? status : add_unit(b, unit);
 }
 
 static gm_status find_lines(builder *b, int p)
@@ -245,42 +241,24 @@ static gm_status plan_lines(builder *b, int p)
     gm_status status = find_lines(b, p);
     for (int i = 0; i < 2 * b->plan->n_lines[p] && status == GM_OK; i++) {
         gm_table_key key = gm_sweep_line_key(p, b->plan->line[p][i / 2], i % 2);
-        gm_job job = {GM_JOB_LINE, 1, 0, -1, 0, 2};
+        gm_unit unit = {GM_UNIT_LINE, 1, 0, -1};
         b->axis[0] = b->free_output;
-        status = add_table(b, &key, 1, &job.table);
+        status = add_table(b, &key, 1, &unit.table);
         if (status == GM_OK)
-            status = add_jobs(b, job, b->axis[0].n);
+            status = add_unit(b, unit);
     }
     return status;
 }
 
-static gm_status plan_reference(builder *b)
-{
-    gm_sweep_plan *plan = b->plan;
-    int n = plan->n_reference = b->free_output.n;
-    plan->reference_speed = gm_calloc((size_t)n, sizeof(double));
-    for (int d = 0; d < 2; d++)
-        plan->reference[d] = gm_calloc((size_t)n, sizeof(double));
-    if (!plan->reference_speed || !plan->reference[0] || !plan->reference[1])
-        return gm_fail(b->error, GM_ERR_MEMORY, "no memory for the sweep's plan");
-    memcpy(plan->reference_speed, b->free_output.x, (size_t)n * sizeof(double));
-    gm_status status = GM_OK;
-    for (int d = 0; d < 2 && status == GM_OK; d++) {
-        gm_job job = {GM_JOB_REFERENCE, 1, d, -1, 0, 1};
-        status = add_jobs(b, job, n);
-    }
-    return status;
-}
-
-static gm_status plan_parasitic(builder *b, const int *gear)
+static gm_status plan_parasitic(builder *b, const int *gear, int phase)
 {
     gm_status status = output_axis(b, gear, &b->axis[0]);
     for (int d = 0; d < 2 && status == GM_OK; d++) {
         gm_table_key key = gm_sweep_configuration_key(GM_PARASITIC, b->map, gear, d);
-        gm_job job = {GM_JOB_PARASITIC, 1, 0, -1, 0, 1};
-        status = add_table(b, &key, 1, &job.table);
+        gm_unit unit = {GM_UNIT_PARASITIC, phase, 0, -1};
+        status = add_table(b, &key, 1, &unit.table);
         if (status == GM_OK)
-            status = add_jobs(b, job, b->axis[0].n);
+            status = add_unit(b, unit);
     }
     return status;
 }
@@ -296,17 +274,16 @@ static gm_status plan_load(builder *b, int p, const gm_map_gear *of, int directi
     gm_table_key load = gm_sweep_load_key(p, of->number, direction);
     gm_table_key parasitic =
         gm_sweep_configuration_key(GM_PARASITIC, b->map, gear, output_direction);
-    gm_job job = {GM_JOB_LOAD, 2, 0, -1, 0, 0};
+    gm_unit unit = {GM_UNIT_LOAD, 2, 0, -1};
     gm_status status = speed_axis(b, p, of->number, &b->axis[0]);
     if (status == GM_OK)
         status = torque_axis(b, p, of->number, &b->axis[1]);
     if (status == GM_OK)
-        status = add_table(b, &load, 2, &job.table);
-    job.points = b->axis[1].n;
+        status = add_table(b, &load, 2, &unit.table);
     gm_nodes_scale(1.0 / fabs(of->ratio), &b->axis[0]);
     if (status == GM_OK && !gm_map_find(b->map, &parasitic))
-        status = add_table(b, &parasitic, 1, &job.companion);
-    return status != GM_OK ? status : add_jobs(b, job, b->axis[0].n);
+        status = add_table(b, &parasitic, 1, &unit.companion);
+    return status != GM_OK ? status : add_unit(b, unit);
 }
 
 static gm_status plan_drag(builder *b, int p, int direction, int output_direction)
@@ -315,14 +292,14 @@ static gm_status plan_drag(builder *b, int p, int direction, int output_directio
     key.path = p;
     key.direction[0] = direction;
     key.direction[1] = output_direction;
-    gm_job job = {GM_JOB_DRAG, 2, 0, 0, 0, b->free_output.n};
+    gm_unit unit = {GM_UNIT_DRAG, 2, 0, 0};
     b->axis[0] = b->free_speed;
     b->axis[1] = b->free_output;
-    gm_status status = add_table(b, &key, 2, &job.table);
+    gm_status status = add_table(b, &key, 2, &unit.table);
     key.symbol = GM_REACTION;
     if (status == GM_OK)
-        status = add_table(b, &key, 2, &job.companion);
-    return status != GM_OK ? status : add_jobs(b, job, b->free_speed.n);
+        status = add_table(b, &key, 2, &unit.companion);
+    return status != GM_OK ? status : add_unit(b, unit);
 }
 
 static gm_status plan_both(builder *b, const int *gear, int direction)
@@ -336,9 +313,9 @@ static gm_status plan_both(builder *b, const int *gear, int direction)
     gm_nodes_power(BOTH_TORQUE_NODES, b->map->torque_max, BOTH_TORQUE_POWER, &b->axis[1]);
     gm_nodes_mirror(&b->axis[1]);
     b->axis[2] = b->axis[1];
-    gm_job job = {GM_JOB_BOTH, 3, 0, -1, 0, b->axis[1].n * b->axis[2].n};
-    gm_status status = add_table(b, &key, 3, &job.table);
-    return status != GM_OK ? status : add_jobs(b, job, b->axis[0].n);
+    gm_unit unit = {GM_UNIT_BOTH, 3, 0, -1};
+    gm_status status = add_table(b, &key, 3, &unit.table);
+    return status != GM_OK ? status : add_unit(b, unit);
 }
 
 static gm_status plan_path(builder *b, int p)
@@ -360,7 +337,7 @@ static gm_status plan_doubles(builder *b)
     for (int i = 0; i < n_0 * n_1 && status == GM_OK; i++) {
         int gear[GM_MAX_PATHS] = {b->map->paths[0].gears[i / n_1].number,
                                   b->map->paths[1].gears[i % n_1].number};
-        status = always_engaged(b->plant) ? GM_OK : plan_parasitic(b, gear);
+        status = always_engaged(b->plant) ? GM_OK : plan_parasitic(b, gear, 3);
         for (int d = 0; d < 2 && status == GM_OK; d++)
             status = plan_both(b, gear, d);
     }
@@ -379,24 +356,45 @@ static gm_status plan_all(builder *b)
     int fixed = always_engaged(b->plant);
     if (two && b->plant->info.coupled && fixed == 0)
         status = plan_coupling(b);
-    if (status == GM_OK && fixed < b->map->n_paths)
-        status = plan_reference(b);
     if (status == GM_OK && fixed == 0)
-        status = plan_parasitic(b, neutral);
+        status = plan_parasitic(b, neutral, 1);
     for (int p = 0; p < b->map->n_paths && status == GM_OK; p++)
         status = plan_path(b, p);
     return status == GM_OK && two ? plan_doubles(b) : status;
 }
 
-static void view_coupling(gm_sweep_plan *plan)
+int gm_unit_rows(const gm_sweep_plan *plan, const gm_unit *unit)
 {
-    gm_table_key key = gm_table_key_of(GM_COUPLING);
-    const gm_map_table *table = gm_map_find(plan->map, &key);
-    if (!table)
-        return;
-    plan->coupling.x.n = table->n[0];
-    plan->coupling.x.x = table->x[0];
-    plan->coupling.value = table->value;
+    return plan->map->tables[unit->table].n[0];
+}
+
+int gm_unit_row_points(const gm_sweep_plan *plan, const gm_unit *unit)
+{
+    int sides = unit->kind == GM_UNIT_COUPLING || unit->kind == GM_UNIT_LINE;
+    return gm_map_row_size(&plan->map->tables[unit->table]) * (1 + sides);
+}
+
+gm_status gm_unit_set_axes(gm_sweep_plan *plan, const gm_unit *unit, const gm_nodes *axes,
+                           gm_error *error)
+{
+    gm_map *map = plan->map;
+    const gm_table_key *key = &map->tables[unit->table].key;
+    int n_axes = map->tables[unit->table].n_axes, n[GM_MAX_AXES] = {1, 1, 1};
+    const double *x[GM_MAX_AXES] = {NULL, NULL, NULL};
+    for (int a = 0; a < n_axes; a++) {
+        n[a] = axes[a].n;
+        x[a] = axes[a].x;
+    }
+    gm_status status = gm_map_set_axes(map, unit->table, n, x, error);
+    if (status != GM_OK || unit->companion < 0)
+        return status;
+    if (unit->kind != GM_UNIT_LOAD)
+        return gm_map_set_axes(map, unit->companion, n, x, error);
+    gm_nodes output = axes[0]; /* P over the output's speed */
+    gm_nodes_scale(1.0 / fabs(gm_sweep_ratio(map, key->path, key->gear[key->path])),
+                   &output);
+    x[0] = output.x;
+    return gm_map_set_axes(map, unit->companion, n, x, error);
 }
 
 gm_status gm_sweep_plan_create(const gm_plant *plant, const gm_sweep_options *options,
@@ -411,6 +409,7 @@ gm_status gm_sweep_plan_create(const gm_plant *plant, const gm_sweep_options *op
     }
     made->plant = plant;
     made->map = map;
+    made->monotone = options->monotone;
     b->plant = plant;
     b->options = options;
     b->map = map;
@@ -418,7 +417,6 @@ gm_status gm_sweep_plan_create(const gm_plant *plant, const gm_sweep_options *op
     b->error = error;
     status = plan_all(b);
     if (status == GM_OK) {
-        view_coupling(made);
         *plan = made;
         made = NULL;
     }
@@ -432,9 +430,6 @@ void gm_sweep_plan_destroy(gm_sweep_plan *plan)
 {
     if (!plan)
         return;
-    gm_free(plan->reference_speed);
-    gm_free(plan->reference[0]);
-    gm_free(plan->reference[1]);
-    gm_free(plan->jobs);
+    gm_free(plan->units);
     gm_free(plan);
 }

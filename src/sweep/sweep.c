@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * Scheduling of a sweep: threads take the jobs of a phase from its list, each with a
- * solver of its own; a finished row goes into the journal and the progress report one at
- * a time. Built without OpenMP the same code runs on one thread.
+ * Scheduling of a sweep: phase by phase, threads take items from a list (points that the
+ * error control wants, units of it to advance, rows of the tables), each with a solver of
+ * its own. Built without OpenMP the same code runs on one thread.
  */
 #include "sweep/gm_sweep.h"
 
 #include "base/alloc.h"
-#include "map/gm_map_file.h"
 #include "sweep/checks.h"
+#include "sweep/control.h"
 #include "sweep/experiments.h"
 #include "sweep/plan.h"
+#include "sweep/points.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -18,19 +19,26 @@
 #include <string.h>
 #include <time.h>
 
-#define REPORT_INTERVAL 0.1 /* s */
+/* A row of the plan. */
+typedef struct job {
+    int unit, row;
+} job;
 
 typedef struct run {
     gm_sweep_plan *plan;
     gm_map *map;
-    gm_journal *journal;
+    gm_points *points;
+    gm_control *control; /* NULL: the axes are given */
+    int threads;         /* 0: as many as there are */
     gm_sweep_report report;
     void *user;
-    gm_sweep_progress progress;
-    double started, reported; /* s */
-    int phase;
+    double started; /* s */
+    int n_jobs;
+    job *jobs;
+    atomic_long outstanding; /* points that are wanted, as far as is known */
+    double worst_error;
     atomic_int stop;
-    int failed_job; /* of several that fail at once the first in the list is told */
+    int failed_item; /* of several that fail at once the first in the list is told */
     gm_status status;
     gm_error error;
 } run;
@@ -42,15 +50,29 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
+static int by_error(const gm_sweep_options *o)
+{
+    return o->tolerance_share > 0.0 || o->tolerance_torque > 0.0;
+}
+
 static gm_status check_options(const gm_sweep_options *o, gm_error *error)
 {
-    const double value[] = {o->speed_step, o->torque_step, o->speed_max, o->torque_max};
-    static const char *const name[] = {"speed step", "torque step", "largest speed",
-                                       "largest torque"};
-    for (int i = 0; i < 4; i++)
+    const double value[] = {o->speed_step, o->torque_step,     o->speed_max,
+                            o->torque_max, o->tolerance_share, o->tolerance_torque};
+    static const char *const name[] = {"speed step",     "torque step",
+                                       "largest speed",  "largest torque",
+                                       "relative error", "error"};
+    for (int i = 0; i < 6; i++)
         if (!(value[i] >= 0.0) || !isfinite(value[i]))
             return gm_fail(error, GM_ERR_ARGUMENT, "the %s is %g; it must be above zero",
                            name[i], value[i]);
+    if (o->tolerance_share >= 1.0)
+        return gm_fail(error, GM_ERR_ARGUMENT,
+                       "an error of %g of the largest loss is no tolerance",
+                       o->tolerance_share);
+    if (by_error(o) && (o->speed_step > 0.0 || o->torque_step > 0.0))
+        return gm_fail(error, GM_ERR_ARGUMENT,
+                       "axes are chosen by their error or by steps, not by both");
     if (o->threads < 0)
         return gm_fail(error, GM_ERR_ARGUMENT, "%d threads are not possible", o->threads);
     return GM_OK;
@@ -94,121 +116,199 @@ static void describe(const gm_plant *plant, const gm_sweep_options *options, gm_
              "speed_step=%s torque_step=%s speed_max=%.17g torque_max=%.17g "
              "oil_temperature=%.17g",
              speed, torque, map->speed_max, map->torque_max, map->oil_temperature);
+    size_t used = strlen(map->options);
+    if (by_error(options))
+        snprintf(map->options + used, sizeof map->options - used,
+                 " tolerance=%.17g,%.17gN.m interpolation=%s", options->tolerance_share,
+                 options->tolerance_torque, options->monotone ? "monotone" : "linear");
 }
 
 /* ---- threads ---- */
 
-static void keep_failure(run *r, int job, gm_status status, const gm_error *error)
+/* A kind of work: item i of it, with a thread's solver. */
+typedef gm_status (*work)(run *r, int i, gm_point_solver *solver, gm_error *error);
+
+static void keep_failure(run *r, int item, gm_status status, const gm_error *error)
 {
-    if (r->status == GM_OK || job < r->failed_job) {
-        r->failed_job = job;
+#pragma omp critical(gm_sweep_failure)
+    if (r->status == GM_OK || item < r->failed_item) {
+        r->failed_item = item;
         r->status = status;
         r->error = *error;
     }
     atomic_store(&r->stop, 1);
 }
 
-static int is_done(const run *r, const gm_job *job)
+/* One thread's share of the items. */
+static void do_share(run *r, work what, int n)
 {
-    if (!r->journal || job->kind == GM_JOB_REFERENCE)
-        return 0;
-    return gm_journal_has(r->journal, job->table, job->row) &&
-           (job->companion < 0 || gm_journal_has(r->journal, job->companion, job->row));
+    gm_point_solver *solver = NULL;
+    gm_error error = {GM_OK, ""};
+    gm_status status = gm_point_solver_create(r->points, r->plan->plant, &solver, &error);
+    if (status != GM_OK)
+        keep_failure(r, 0, status, &error);
+#pragma omp for schedule(dynamic, 1)
+    for (int i = 0; i < n; i++) {
+        gm_error why = {GM_OK, ""};
+        status = atomic_load(&r->stop) ? GM_OK : what(r, i, solver, &why);
+        if (status != GM_OK)
+            keep_failure(r, i, status, &why);
+    }
+    if (solver) {
+        status = gm_point_solver_flush(solver, &error);
+        if (status != GM_OK)
+            keep_failure(r, n, status, &error);
+    }
+    gm_point_solver_destroy(solver);
 }
 
-static gm_status put_row(run *r, const gm_job *job, gm_error *error)
+static gm_status do_all(run *r, work what, int n)
 {
-    if (!r->journal || job->kind == GM_JOB_REFERENCE)
+    if (r->threads > 0) {
+#pragma omp parallel num_threads(r->threads)
+        do_share(r, what, n);
+    } else {
+#pragma omp parallel
+        do_share(r, what, n);
+    }
+    return r->status;
+}
+
+/* ---- progress ---- */
+
+static gm_sweep_progress progress_of(const run *r)
+{
+    long done = gm_points_count(r->points);
+    return (gm_sweep_progress){
+        .points_done = done,
+        .points_total = done + atomic_load(&r->outstanding),
+        .points_resumed = gm_points_resumed(r->points),
+        .worst_error = r->worst_error,
+        .elapsed = now() - r->started,
+    };
+}
+
+static gm_status watch(void *user, gm_error *error)
+{
+    run *r = user;
+    gm_sweep_progress progress = progress_of(r);
+    if (!r->report || !r->report(r->user, &progress))
         return GM_OK;
-    gm_status status = gm_journal_put(r->journal, r->map, job->table, job->row, error);
-    if (status == GM_OK && job->companion >= 0)
-        status = gm_journal_put(r->journal, r->map, job->companion, job->row, error);
+    return gm_fail(error, GM_ERR_INTERRUPTED,
+                   "the sweep was interrupted after %ld of %ld points",
+                   progress.points_done, progress.points_total);
+}
+
+/* ---- error control ---- */
+
+static gm_status sample_lot(run *r, int i, gm_point_solver *solver, gm_error *error)
+{
+    gm_status status = gm_control_sample(r->control, i, solver, error);
+    atomic_fetch_sub(&r->outstanding, gm_control_lot_size(r->control, i));
     return status;
 }
 
-/* One thread at a time. */
-static void finish_job(run *r, int index)
+static gm_status advance_unit(run *r, int i, gm_point_solver *solver, gm_error *error)
 {
-    const gm_job *job = &r->plan->jobs[index];
-    gm_error error = {GM_OK, ""};
-    gm_status status = put_row(r, job, &error);
-    double t = now();
-    r->progress.points_done += job->points;
-    r->progress.elapsed = t - r->started;
-    if (status == GM_OK && r->report && t - r->reported >= REPORT_INTERVAL) {
-        r->reported = t;
-        if (r->report(r->user, &r->progress))
-            status = gm_fail(&error, GM_ERR_INTERRUPTED,
-                             "the sweep was interrupted after %ld of %ld points",
-                             r->progress.points_done, r->progress.points_total);
-    }
-    if (status != GM_OK)
-        keep_failure(r, index, status, &error);
+    (void)solver;
+    return gm_control_advance(r->control, i, error);
 }
 
-static void do_job(run *r, int index, gm_steady_solver *solver)
+static gm_status choose_axes(run *r, int phase)
 {
-    const gm_job *job = &r->plan->jobs[index];
-    gm_error error = {GM_OK, ""};
-    if (job->phase != r->phase || atomic_load(&r->stop) || is_done(r, job))
-        return;
-    gm_status status = gm_experiment_row(r->plan, job, solver, &error);
-#pragma omp critical(gm_sweep_row)
-    {
-        if (status != GM_OK)
-            keep_failure(r, index, status, &error);
-        else
-            finish_job(r, index);
+    int n = 0;
+    gm_status status = gm_control_begin(r->control, phase, &r->error);
+    if (status == GM_OK)
+        status = gm_control_lots(r->control, &n, &r->error);
+    while (status == GM_OK && n > 0) {
+        long wanted = 0;
+        for (int i = 0; i < n; i++)
+            wanted += gm_control_lot_size(r->control, i);
+        atomic_store(&r->outstanding, wanted);
+        status = do_all(r, sample_lot, n);
+        if (status == GM_OK)
+            status = do_all(r, advance_unit, r->plan->n_units);
+        r->worst_error = gm_control_worst(r->control);
+        if (status == GM_OK)
+            status = gm_control_lots(r->control, &n, &r->error);
     }
+    if (status == GM_OK)
+        status = gm_control_end(r->control, &r->error);
+    r->status = status;
+    return status;
 }
 
-/* One thread's share of a phase. */
-static void work(run *r)
+/* ---- tables ---- */
+
+static int points_of(const run *r, const job *j)
 {
-    gm_steady_solver *solver = NULL;
-    gm_error error = {GM_OK, ""};
-    gm_status status = gm_steady_solver_create(r->plan->plant, &solver, &error);
-    if (status != GM_OK) {
-#pragma omp critical(gm_sweep_row)
-        keep_failure(r, 0, status, &error);
-    }
-#pragma omp for schedule(dynamic, 1)
-    for (int i = 0; i < r->plan->n_jobs; i++)
-        do_job(r, i, solver);
-    gm_steady_solver_destroy(solver);
+    return gm_unit_row_points(r->plan, &r->plan->units[j->unit]);
 }
 
-static void run_phase(run *r, int threads)
+static gm_status do_row(run *r, int i, gm_point_solver *solver, gm_error *error)
 {
-    if (threads > 0) {
-#pragma omp parallel num_threads(threads)
-        work(r);
-    } else {
-#pragma omp parallel
-        work(r);
-    }
+    const job *j = &r->jobs[i];
+    gm_status status =
+        gm_experiment_row(r->plan, &r->plan->units[j->unit], j->row, solver, error);
+    atomic_fetch_sub(&r->outstanding, points_of(r, j));
+    return status;
 }
 
-static void count_points(run *r)
+static gm_status list_rows(run *r, int phase)
 {
-    for (int i = 0; i < r->plan->n_jobs; i++) {
-        const gm_job *job = &r->plan->jobs[i];
-        r->progress.points_total += job->points;
-        if (is_done(r, job))
-            r->progress.points_resumed += job->points;
-    }
-    r->progress.points_done = r->progress.points_resumed;
+    const gm_sweep_plan *plan = r->plan;
+    int rows = 0;
+    for (int u = 0; u < plan->n_units; u++)
+        rows += plan->units[u].phase == phase ? gm_unit_rows(plan, &plan->units[u]) : 0;
+    job *jobs = gm_resize(r->jobs, (size_t)rows + 1, sizeof *jobs);
+    if (!jobs)
+        return gm_fail(&r->error, GM_ERR_MEMORY, "no memory for the rows of the sweep");
+    r->jobs = jobs;
+    r->n_jobs = 0;
+    for (int u = 0; u < plan->n_units; u++)
+        for (int i = 0; i < gm_unit_rows(plan, &plan->units[u]); i++)
+            if (plan->units[u].phase == phase)
+                jobs[r->n_jobs++] = (job){u, i};
+    return GM_OK;
 }
 
-static gm_status run_jobs(run *r, int threads, gm_error *error)
+/* What the tables of a phase and those after it take; with axes by error only rows are
+   known whose points were solved already. */
+static void count_outstanding(run *r, int phase)
 {
-    r->started = r->reported = now();
-    count_points(r);
-    for (r->phase = 1; r->phase <= GM_SWEEP_PHASES && r->status == GM_OK; r->phase++)
-        run_phase(r, threads);
-    r->progress.elapsed = now() - r->started;
-    if (r->status == GM_OK && r->report)
-        (void)r->report(r->user, &r->progress); /* it is too late to stop */
+    long points = 0;
+    const gm_sweep_plan *plan = r->plan;
+    for (int u = 0; u < plan->n_units && !r->control; u++)
+        if (plan->units[u].phase >= phase)
+            points += (long)gm_unit_rows(plan, &plan->units[u]) *
+                      gm_unit_row_points(plan, &plan->units[u]);
+    atomic_store(&r->outstanding, points);
+}
+
+static gm_status fill_tables(run *r, int phase)
+{
+    r->status = list_rows(r, phase);
+    if (r->status != GM_OK)
+        return r->status;
+    count_outstanding(r, phase);
+    return do_all(r, do_row, r->n_jobs);
+}
+
+static gm_status run_phases(run *r, gm_error *error)
+{
+    r->started = now();
+    r->worst_error = (double)NAN;
+    gm_points_set_watch(r->points, watch, r);
+    for (int phase = 1; phase <= GM_SWEEP_PHASES && r->status == GM_OK; phase++) {
+        if (r->control && choose_axes(r, phase) != GM_OK)
+            break;
+        (void)fill_tables(r, phase);
+    }
+    atomic_store(&r->outstanding, 0);
+    if (r->status == GM_OK && r->report) {
+        gm_sweep_progress progress = progress_of(r);
+        (void)r->report(r->user, &progress); /* it is too late to stop */
+    }
     if (r->status != GM_OK && error)
         *error = r->error;
     return r->status;
@@ -216,24 +316,13 @@ static gm_status run_jobs(run *r, int threads, gm_error *error)
 
 /* ---- life ---- */
 
-static gm_status finish(run *r, gm_error *error)
-{
-    gm_status status = gm_sweep_check_unique(r->map, error);
-    if (status != GM_OK)
-        return status;
-    if (!r->journal)
-        return gm_map_hash(r->map, r->map->content_hash, error);
-    status = gm_journal_finish(r->journal, r->map, error);
-    r->journal = NULL;
-    return status;
-}
-
 static gm_status prepare(run *r, const gm_plant *plant, const gm_sweep_options *options,
                          const char *path, double *deviation, gm_error *error)
 {
     gm_status status = check_options(options, error);
     if (status != GM_OK)
         return status;
+    r->threads = options->threads;
     r->map = gm_map_create();
     if (!r->map)
         return gm_fail(error, GM_ERR_MEMORY, "no memory for the map");
@@ -243,9 +332,24 @@ static gm_status prepare(run *r, const gm_plant *plant, const gm_sweep_options *
         status = gm_sweep_identify(plant, r->map, deviation, error);
     if (status == GM_OK)
         status = gm_sweep_plan_create(plant, options, r->map, &r->plan, error);
-    if (status == GM_OK && path)
-        status = gm_journal_open(path, r->map, &r->journal, error);
+    if (status == GM_OK && by_error(options))
+        status = gm_control_create(r->plan, options, &r->control, error);
+    if (status == GM_OK)
+        status = gm_points_open(path, r->map, &r->points, error);
     return status;
+}
+
+static void summarise(const run *r, double deviation, gm_sweep_summary *summary)
+{
+    long resumed = gm_points_resumed(r->points);
+    *summary = (gm_sweep_summary){
+        .points = gm_points_count(r->points) - resumed,
+        .resumed = resumed,
+        .elapsed = now() - r->started,
+        .largest_ratio_deviation = deviation,
+    };
+    if (r->control)
+        gm_control_missed(r->control, summary->missed);
 }
 
 gm_status gm_sweep_run(const gm_plant *plant, const gm_sweep_options *options,
@@ -256,22 +360,21 @@ gm_status gm_sweep_run(const gm_plant *plant, const gm_sweep_options *options,
     double deviation = 0.0;
     gm_status status = prepare(&r, plant, options, path, &deviation, error);
     if (status == GM_OK)
-        status = run_jobs(&r, options->threads, error);
+        status = run_phases(&r, error);
     if (status == GM_OK)
-        status = finish(&r, error);
-    gm_journal_close(r.journal, status == GM_ERR_INTERRUPTED);
+        status = gm_sweep_check_unique(r.map, error);
+    if (status == GM_OK)
+        status = gm_points_finish(r.points, r.map, error);
+    if (status == GM_OK && summary)
+        summarise(&r, deviation, summary);
+    gm_points_close(r.points, status == GM_ERR_INTERRUPTED || status == GM_ERR_IO ||
+                                  status == GM_ERR_MEMORY);
+    gm_control_destroy(r.control);
     gm_sweep_plan_destroy(r.plan);
-    if (status != GM_OK) {
+    gm_free(r.jobs);
+    if (status == GM_OK)
+        *map = r.map;
+    else
         gm_map_destroy(r.map);
-        return status;
-    }
-    *map = r.map;
-    if (summary)
-        *summary = (gm_sweep_summary){
-            .points = r.progress.points_total - r.progress.points_resumed,
-            .resumed = r.progress.points_resumed,
-            .elapsed = r.progress.elapsed,
-            .largest_ratio_deviation = deviation,
-        };
-    return GM_OK;
+    return status;
 }

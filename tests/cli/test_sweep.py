@@ -45,12 +45,12 @@ def test_options_and_oil_change_the_content(tmp_path):
 
 
 def started(path, *options):
-    """A sweep in the background, once its journal holds some rows."""
+    """A sweep in the background, once its journal's log holds some points."""
     process = subprocess.Popen([PROGRAM, "sweep", EXAMPLE, "-o", path, *FINE, *options],
                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    journal = path.with_name(path.name + ".part")
+    log = path.with_name(path.name + ".part-wal")
     deadline = time.monotonic() + 60
-    while not (journal.exists() and journal.stat().st_size > 300_000):
+    while not (log.exists() and log.stat().st_size > 300_000):
         assert process.poll() is None, "the sweep ended before it could be interrupted"
         assert time.monotonic() < deadline
         time.sleep(0.01)

@@ -49,37 +49,40 @@ int file_teardown(void **state)
     return system(command);
 }
 
-gm_journal *file_journal(gm_map *map)
+gm_journal *file_journal(const gm_map *map)
 {
     gm_error error;
     gm_journal *journal = NULL;
-    if (gm_journal_open(file_path, map, &journal, &error) != GM_OK)
+    if (gm_journal_open(file_path, map, sizeof(file_record), &journal, &error) != GM_OK)
         fail_msg("%s", error.message);
     return journal;
 }
 
-static void put(gm_journal *journal, const gm_map *map, int t, int i)
+static double value_of(long n)
 {
-    gm_error error;
-    if (gm_journal_put(journal, map, t, i, &error) != GM_OK)
-        fail_msg("%s", error.message);
+    return 0.1 * (double)n;
 }
 
-int file_rows(const gm_map *map)
+void file_put(gm_journal *journal, int first, int last)
 {
-    int n = 0;
-    for (int t = 0; t < map->n_tables; t++)
-        n += map->tables[t].n[0];
-    return n;
+    for (int n = first; n < last; n += 3) {
+        gm_error error;
+        file_record records[3];
+        int size = last - n < 3 ? last - n : 3;
+        for (int i = 0; i < size; i++)
+            records[i] = (file_record){n + i, value_of(n + i)};
+        if (gm_journal_put(journal, records, size, &error) != GM_OK)
+            fail_msg("%s", error.message);
+    }
 }
 
-/* Rows number first .. last - 1 of all, counted over the tables. */
-void file_put_rows(gm_journal *journal, const gm_map *map, int first, int last)
+void file_expect_records(const gm_journal *journal, int n)
 {
-    for (int t = 0, n = 0; t < map->n_tables; t++)
-        for (int i = 0; i < map->tables[t].n[0]; i++, n++)
-            if (n >= first && n < last)
-                put(journal, map, t, i);
+    long count;
+    const file_record *records = gm_journal_records(journal, &count);
+    assert_int_equal(count, n);
+    for (int i = 0; i < n; i++)
+        assert_true(records[i].n == i && records[i].value == value_of(i));
 }
 
 void file_finish(gm_journal *journal, gm_map *map)
@@ -92,9 +95,7 @@ void file_finish(gm_journal *journal, gm_map *map)
 /* Write a finished map at path. */
 void file_write_map(gm_map *map)
 {
-    gm_journal *journal = file_journal(map);
-    file_put_rows(journal, map, 0, file_rows(map));
-    file_finish(journal, map);
+    file_finish(file_journal(map), map);
 }
 
 gm_map *file_read_map(const char *name)

@@ -25,14 +25,20 @@ void file_write_bytes(const char *name, const void *bytes, size_t size);
 /** Free the bytes with gm_free. */
 unsigned char *file_read_bytes(const char *name, size_t *size);
 
+/** A record of the tests' journals: number n and a value that follows from it. */
+typedef struct file_record {
+    long n;
+    double value;
+} file_record;
+
 /** Open the journal of file_path. */
-gm_journal *file_journal(gm_map *map);
+gm_journal *file_journal(const gm_map *map);
 
-/** Rows of all tables. */
-int file_rows(const gm_map *map);
+/** Put records number first .. last - 1, three at a time. */
+void file_put(gm_journal *journal, int first, int last);
 
-/** Put rows number first .. last - 1 of all, counted over the tables. */
-void file_put_rows(gm_journal *journal, const gm_map *map, int first, int last);
+/** The journal was opened with the records 0 .. n - 1, and no others. */
+void file_expect_records(const gm_journal *journal, int n);
 
 void file_finish(gm_journal *journal, gm_map *map);
 

@@ -26,12 +26,12 @@ static void files_that_are_no_maps_are_named(void **state)
     char missing[128];
     gm_map *map = fixture_map(&fixture_full);
     gm_journal *journal = file_journal(map);
-    file_put_rows(journal, map, 0, 30);
+    file_put(journal, 0, 30);
     gm_journal_close(journal, true);
     file_expect_refusal(file_part, GM_ERR_FORMAT,
                         "is an unfinished sweep: run the same sweep again");
     journal = file_journal(map); /* and while it is being written */
-    file_put_rows(journal, map, 30, 31);
+    file_put(journal, 30, 31);
     pid_t child = fork();
     if (child == 0) {
         gm_map *none = NULL;

@@ -1,0 +1,245 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+#include "sweep/points.h"
+
+#include "base/alloc.h"
+#include "sweep/memo.h"
+
+#include <string.h>
+#include <time.h>
+
+#define BLOCK 32           /* points that go to the journal at once */
+#define BLOCK_AGE 20e-3    /* s, of the oldest of them */
+#define WATCH_INTERVAL 0.1 /* s */
+
+/* A key or record has no padding but what memset has made zero. */
+typedef struct record {
+    gm_steady_point point;
+    gm_steady_result result;
+} record;
+
+struct gm_points {
+    gm_memo *memo;
+    gm_journal *journal; /* NULL: in memory only */
+    long resumed;
+    gm_points_watch watch;
+    void *user;
+    double watched; /* s, when last */
+};
+
+struct gm_point_solver {
+    gm_points *points;
+    gm_steady_solver *solver;
+    int n; /* waiting for the journal */
+    double since;
+    record block[BLOCK];
+};
+
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* The point as a key: flanges and fields that do not matter may hold -0.0. */
+static gm_steady_point key_of(const gm_steady_point *point)
+{
+    gm_steady_point key;
+    memset(&key, 0, sizeof key);
+    memcpy(key.gear, point->gear, sizeof key.gear);
+    for (int f = 0; f < GM_MAX_FLANGES; f++) {
+        key.speed[f] = point->speed[f] + 0.0;
+        key.direction[f] = point->direction[f] + 0.0;
+        key.torque[f] = point->torque[f] + 0.0;
+    }
+    return key;
+}
+
+/* ---- the points ---- */
+
+static gm_status no_memory(gm_error *error)
+{
+    return gm_fail(error, GM_ERR_MEMORY, "no memory for the points of the sweep");
+}
+
+static gm_status take_up(gm_points *p, gm_error *error)
+{
+    long n;
+    const record *records = gm_journal_records(p->journal, &n);
+    for (long i = 0; i < n; i++) {
+        if (gm_memo_find(p->memo, &records[i].point))
+            continue; /* two threads may solve the same point at once */
+        gm_steady_result *result = gm_memo_add(p->memo, &records[i].point);
+        if (!result)
+            return no_memory(error);
+        *result = records[i].result;
+    }
+    p->resumed = gm_memo_count(p->memo);
+    return GM_OK;
+}
+
+gm_status gm_points_open(const char *path, const gm_map *map, gm_points **points,
+                         gm_error *error)
+{
+    gm_points *made = gm_calloc(1, sizeof *made);
+    gm_status status = GM_OK;
+    if (made)
+        made->memo = gm_memo_create(sizeof(gm_steady_point), sizeof(gm_steady_result));
+    if (!made || !made->memo)
+        status = no_memory(error);
+    if (status == GM_OK && path)
+        status = gm_journal_open(path, map, sizeof(record), &made->journal, error);
+    if (status == GM_OK && path)
+        status = take_up(made, error);
+    if (status == GM_OK)
+        *points = made;
+    else
+        gm_points_close(made, true);
+    return status;
+}
+
+gm_status gm_points_finish(gm_points *points, gm_map *map, gm_error *error)
+{
+    if (!points->journal)
+        return gm_map_hash(map, map->content_hash, error);
+    gm_journal *journal = points->journal;
+    points->journal = NULL;
+    return gm_journal_finish(journal, map, error);
+}
+
+void gm_points_close(gm_points *points, bool keep)
+{
+    if (!points)
+        return;
+    gm_journal_close(points->journal, keep);
+    gm_memo_destroy(points->memo);
+    gm_free(points);
+}
+
+void gm_points_set_watch(gm_points *points, gm_points_watch watch, void *user)
+{
+    points->watch = watch;
+    points->user = user;
+    points->watched = now();
+}
+
+long gm_points_count(gm_points *points)
+{
+    long n;
+#pragma omp critical(gm_sweep_points)
+    n = gm_memo_count(points->memo);
+    return n;
+}
+
+long gm_points_resumed(const gm_points *points)
+{
+    return points->resumed;
+}
+
+static int find(gm_points *points, const gm_steady_point *key, gm_steady_result *result)
+{
+    const gm_steady_result *found;
+#pragma omp critical(gm_sweep_points)
+    {
+        found = gm_memo_find(points->memo, key);
+        if (found)
+            *result = *found;
+    }
+    return found != NULL;
+}
+
+static gm_status add(gm_points *points, const record *solved, gm_error *error)
+{
+    gm_steady_result *result;
+#pragma omp critical(gm_sweep_points)
+    {
+        result = gm_memo_find(points->memo, &solved->point);
+        if (!result)
+            result = gm_memo_add(points->memo, &solved->point);
+        if (result)
+            *result = solved->result;
+    }
+    return result ? GM_OK : no_memory(error);
+}
+
+/* ---- a thread's solver ---- */
+
+gm_status gm_point_solver_create(gm_points *points, const gm_plant *plant,
+                                 gm_point_solver **solver, gm_error *error)
+{
+    gm_point_solver *made = gm_calloc(1, sizeof *made);
+    if (!made)
+        return no_memory(error);
+    made->points = points;
+    gm_status status = gm_steady_solver_create(plant, &made->solver, error);
+    if (status == GM_OK)
+        *solver = made;
+    else
+        gm_free(made);
+    return status;
+}
+
+void gm_point_solver_destroy(gm_point_solver *solver)
+{
+    if (!solver)
+        return;
+    gm_steady_solver_destroy(solver->solver);
+    gm_free(solver);
+}
+
+gm_status gm_point_solver_flush(gm_point_solver *solver, gm_error *error)
+{
+    gm_status status = GM_OK;
+    int n = solver->n;
+    solver->n = 0;
+    if (n == 0 || !solver->points->journal)
+        return GM_OK;
+#pragma omp critical(gm_sweep_journal)
+    status = gm_journal_put(solver->points->journal, solver->block, n, error);
+    return status;
+}
+
+static gm_status look(gm_points *points, double t, gm_error *error)
+{
+    gm_status status = GM_OK;
+    if (!points->watch)
+        return GM_OK;
+#pragma omp critical(gm_sweep_watch)
+    if (t - points->watched >= WATCH_INTERVAL) {
+        points->watched = t;
+        status = points->watch(points->user, error);
+    }
+    return status;
+}
+
+static gm_status journal(gm_point_solver *s, const record *solved, double t,
+                         gm_error *error)
+{
+    if (!s->points->journal)
+        return GM_OK;
+    if (s->n == 0)
+        s->since = t;
+    s->block[s->n++] = *solved;
+    return s->n == BLOCK || t - s->since >= BLOCK_AGE ? gm_point_solver_flush(s, error)
+                                                      : GM_OK;
+}
+
+gm_status gm_point_solve(gm_point_solver *solver, const gm_steady_point *point,
+                         gm_steady_result *result, gm_error *error)
+{
+    record solved;
+    memset(&solved, 0, sizeof solved);
+    solved.point = key_of(point);
+    if (find(solver->points, &solved.point, result))
+        return GM_OK;
+    gm_steady_solver_restart(solver->solver);
+    gm_status status = gm_steady_solve(solver->solver, &solved.point, result, error);
+    if (status != GM_OK)
+        return status;
+    solved.result = *result;
+    double t = now();
+    status = add(solver->points, &solved, error);
+    if (status == GM_OK)
+        status = journal(solver, &solved, t, error);
+    return status == GM_OK ? look(solver->points, t, error) : status;
+}
