@@ -7,7 +7,8 @@ cd "$(dirname "$0")"
 . tools/setup.sh
 
 gm_install_packages "${gm_build_packages[@]}" "${gm_test_packages[@]}"
-gm_make_venv build/venv tools/requirements.txt tests/requirements.txt
+gm_make_venv build/venv tools/requirements.txt tools/report/requirements.txt \
+  tests/requirements.txt
 gm_build build -DCMAKE_BUILD_TYPE=Release -DGM_WERROR=ON -DGM_BUILD_TESTS=ON \
   -DGM_BUILD_BENCH=ON -DGM_PYTHON="$PWD/build/venv/bin/python"
 

@@ -33,6 +33,9 @@ void gm_checked_gearset_clear(gm_checked_gearset *checked);
 void gm_checked_gearset_print(const gm_checked_gearset *checked, FILE *out);
 void gm_checked_gearset_json(const gm_checked_gearset *checked, gm_json *json);
 
+/** All parts with places and sizes: an object "parts". */
+void gm_checked_parts_json(const gm_description *description, gm_json *json);
+
 /** An operating point as asked for: gear, speed [rad/s] and torque [N.m] at the input;
  *  preselected: gear engaged on the other path, 0: that path is in neutral and free. */
 typedef struct gm_point_request {
@@ -70,6 +73,29 @@ double gm_checked_point_efficiency(const gm_checked_point *point);
 void gm_checked_point_print(const gm_checked_point *point, FILE *out);
 /** key: of the object; NULL inside an array. */
 void gm_checked_point_json(const gm_checked_point *point, const char *key, gm_json *json);
+
+/** Losses by component of one of many points. */
+typedef struct gm_point_losses {
+    gm_point_request request;
+    double output_speed, output_torque; /* rad/s, N.m */
+    double loss, efficiency;            /* W; NAN when nothing comes out */
+    double power[GM_LOSS_KINDS];        /* W */
+} gm_point_losses;
+
+typedef struct gm_checked_points {
+    int n;
+    gm_point_losses *point; /* [n], in the file's order */
+} gm_checked_points;
+
+/** Solve all points of a table (docs: gearmap help check). GM_ERR_IO, GM_ERR_FORMAT,
+ *  GM_ERR_MODEL when there is no such gear. On failure nothing is held. */
+GM_NODISCARD gm_status gm_check_points(const gm_gearset_file *file, const char *table,
+                                       gm_checked_points *points, gm_error *error);
+void gm_checked_points_clear(gm_checked_points *points);
+/** A table of comma-separated values. */
+void gm_checked_points_print(const gm_checked_points *points, FILE *out);
+/** An array "points". */
+void gm_checked_points_json(const gm_checked_points *points, gm_json *json);
 
 /** Every gear at one speed [rad/s] and torque [N.m] of the input. */
 typedef struct gm_checked_reference {

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #define KELVIN 273.15
+#define RPM_PER_RAD_S 9.549296585513721 /* 60 / (2 pi) */
 
 /* At full torque and low speed, where the drag of what idles matters least. */
 static gm_status find_flow(const gm_gearset_file *file, int p, int g, gm_power_flow *flow,
@@ -199,10 +200,20 @@ static void shafts_json(const gm_description *d, gm_json *json)
     gm_json_end(json);
 }
 
-static void gear_json(const gm_checked_gear *g, gm_json *json)
+static void locks_json(const gm_description *d, const gm_checked_gear *g, gm_json *json)
+{
+    const gm_path_gear *gear = gm_path_gear_of(&d->paths[g->path], g->number);
+    gm_json_array(json, "locks");
+    for (int i = 0; i < gear->n_locks; i++)
+        gm_json_text(json, NULL, gm_lock_name(d, &gear->locks[i]));
+    gm_json_end(json);
+}
+
+static void gear_json(const gm_description *d, const gm_checked_gear *g, gm_json *json)
 {
     gm_json_object(json, NULL);
     gm_json_integer(json, "number", g->number);
+    locks_json(d, g, json);
     gm_json_number(json, "ratio", g->ratio);
     gm_json_number(json, "ratio_given", g->ratio_given);
     gm_json_number(json, "inertia_at_input_kgm2", g->inertia);
@@ -225,7 +236,7 @@ static void paths_json(const gm_checked_gearset *c, gm_json *json)
         gm_json_array(json, "gears");
         for (int i = 0; i < c->n_gears; i++)
             if (c->gears[i].path == p)
-                gear_json(&c->gears[i], json);
+                gear_json(c->description, &c->gears[i], json);
         gm_json_end(json);
         gm_json_end(json);
     }
@@ -241,6 +252,8 @@ void gm_checked_gearset_json(const gm_checked_gearset *checked, gm_json *json)
     gm_json_text(json, "sha256", d->sha256);
     gm_json_number(json, "oil_temperature_degC", checked->oil_temperature - KELVIN);
     gm_json_text(json, "output", d->shafts[d->output].id.name);
+    gm_json_number(json, "input_speed_max_rpm", d->speed_max * RPM_PER_RAD_S);
+    gm_json_number(json, "input_torque_max_Nm", d->torque_max);
     gm_json_number(json, "inertia_output_kgm2", checked->inertia_output);
     shafts_json(d, json);
     paths_json(checked, json);

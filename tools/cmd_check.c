@@ -10,7 +10,7 @@
 #include <math.h>
 
 typedef struct arguments {
-    const char *description;
+    const char *description, *points;
     int gear, preselect, json;
     double speed, torque, oil_temperature;
 } arguments;
@@ -31,6 +31,10 @@ static const gm_option options[] = {
     {.kind = GM_OPTION_INTEGER, .name = "preselect", .value = "N", .low = -9, .high = 99,
      .fallback = "0", .offset = offsetof(arguments, preselect),
      .help = "gear engaged without load on the other path; 0: that path is free"},
+    {.kind = GM_OPTION_TEXT, .name = "points", .value = "FILE.csv",
+     .offset = offsetof(arguments, points),
+     .help = "losses by component at all points of a table with columns gear, "
+             "speed_rpm, torque_Nm and optionally preselected, as a table"},
     GM_OIL_OPTION(offsetof(arguments, oil_temperature),
                   "oil temperature; default: the description's"),
     GM_JSON_OPTION(arguments),
@@ -44,6 +48,8 @@ static int wants_point(const arguments *a)
 
 static const char *usage_problem(const arguments *a)
 {
+    if (a->points && (wants_point(a) || !isnan(a->speed) || !isnan(a->torque)))
+        return "--points takes its gears, speeds and torques from the file";
     if (!wants_point(a) && a->preselect != 0)
         return "--preselect belongs to an operating point (--gear)";
     if (a->gear == 0)
@@ -56,7 +62,8 @@ typedef struct checked {
     gm_checked_gearset gearset;
     gm_checked_reference reference;
     gm_checked_point point;
-    int has_point;
+    gm_checked_points points;
+    int has_point, has_points;
 } checked;
 
 static void print_text(const void *result, FILE *out)
@@ -64,6 +71,10 @@ static void print_text(const void *result, FILE *out)
     const checked *c = result;
     if (c->has_point) {
         gm_checked_point_print(&c->point, out);
+        return;
+    }
+    if (c->has_points) {
+        gm_checked_points_print(&c->points, out);
         return;
     }
     gm_checked_gearset_print(&c->gearset, out);
@@ -74,8 +85,11 @@ static void print_json(const void *result, gm_json *json)
 {
     const checked *c = result;
     gm_checked_gearset_json(&c->gearset, json);
+    gm_checked_parts_json(c->gearset.description, json);
     if (c->has_point)
         gm_checked_point_json(&c->point, "point", json);
+    else if (c->has_points)
+        gm_checked_points_json(&c->points, json);
     else
         gm_checked_reference_json(&c->reference, json);
 }
@@ -85,7 +99,7 @@ static const gm_result_form form = {print_text, print_json};
 static gm_status check_open_file(const arguments *a, const gm_gearset_file *file,
                                  gm_error *error)
 {
-    checked c = {.has_point = wants_point(a)};
+    checked c = {.has_point = wants_point(a), .has_points = a->points != NULL};
     const gm_description *d = file->description;
     const double speed = isnan(a->speed) ? 0.5 * d->speed_max : a->speed;
     const double torque = isnan(a->torque) ? 0.5 * d->torque_max : a->torque;
@@ -93,10 +107,13 @@ static gm_status check_open_file(const arguments *a, const gm_gearset_file *file
     gm_status status = gm_check_gearset(file, &c.gearset, error);
     if (status == GM_OK && c.has_point)
         status = gm_check_point(file, &request, &c.point, error);
+    else if (status == GM_OK && c.has_points)
+        status = gm_check_points(file, a->points, &c.points, error);
     else if (status == GM_OK)
         status = gm_check_reference(file, speed, torque, &c.reference, error);
     if (status == GM_OK)
         status = gm_command_print(&form, a->json, &c, error);
+    gm_checked_points_clear(&c.points);
     gm_checked_point_clear(&c.point);
     gm_checked_reference_clear(&c.reference);
     gm_checked_gearset_clear(&c.gearset);
@@ -130,7 +147,8 @@ const gm_command gm_command_check = {
         "gear, "
         "and of all gears at half of the largest speed and torque (or at --speed and "
         "--torque): losses by component, efficiency, mesh frequencies, bearing loads. "
-        "With --gear: that gear alone, element by element.",
+        "With --gear: that gear alone, element by element. With --points: many points at "
+        "once, component by component.",
     .options = options,
     .n_options = sizeof options / sizeof options[0],
     .size = sizeof(arguments),

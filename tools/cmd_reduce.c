@@ -18,7 +18,7 @@ typedef struct arguments {
     gm_sweep_settings sweep;
     gm_bake_settings bake;
     int points, seed, json;
-    const char *cycle, *vehicle;
+    const char *cycle, *vehicle, *trace;
 } arguments;
 
 // clang-format off
@@ -42,6 +42,9 @@ static const gm_option options[] = {
     {.kind = GM_OPTION_TEXT, .name = "vehicle", .value = "FILE.yaml",
      .offset = offsetof(arguments, vehicle),
      .help = "with --cycle: the vehicle; default: a C-segment car"},
+    {.kind = GM_OPTION_TEXT, .name = "trace", .value = "FILE.csv",
+     .offset = offsetof(arguments, trace),
+     .help = "with --cycle: write the drives over time, as gearmap report shows them"},
     GM_JSON_OPTION(arguments),
 };
 // clang-format on
@@ -110,6 +113,8 @@ static gm_status check_before(const arguments *a, gm_error *error)
     if (status == GM_OK && a->map && gm_file_is_same(a->map, a->output))
         status = gm_fail(error, GM_ERR_IO, "%s: cannot be both the map and the component",
                          a->map);
+    if (status == GM_OK && a->trace)
+        status = gm_file_check_output(a->trace, a->description, error);
     if (status == GM_OK && a->cycle) {
         const gm_cycle_settings drive = drive_of(a);
         status = gm_stage_cycle_check(&drive, error);
@@ -157,6 +162,8 @@ static gm_status verify(const arguments *a, reduction *r, const char *name,
         r->drives = status == GM_OK;
         r->driving = gm_stage_clock() - start;
     }
+    if (status == GM_OK && a->trace)
+        status = gm_cycle_stage_trace(&r->cycle, a->trace, error);
     return status == GM_OK ? keep(a, r, &measured, name, error) : status;
 }
 
@@ -206,8 +213,9 @@ static int run(const void *given)
     reduction r;
     if (!gm_stage_knows_interpolation(a->bake.interpolation))
         return GM_EXIT_USAGE;
-    if (a->vehicle && !a->cycle) {
-        fputs("gearmap: --vehicle needs --cycle\n", stderr);
+    if ((a->vehicle || a->trace) && !a->cycle) {
+        fprintf(stderr, "gearmap: --%s needs --cycle\n",
+                a->vehicle ? "vehicle" : "trace");
         return GM_EXIT_USAGE;
     }
     memset(&r, 0, sizeof r);

@@ -45,6 +45,8 @@ static void print_usage(const gm_command *command, FILE *out)
     fprintf(out, "usage: gearmap %s", command->name);
     for (int i = 0; i < command->n_options; i++) {
         const gm_option *o = &command->options[i];
+        if (!o->help)
+            continue;
         if (o->kind == GM_OPTION_OPERAND)
             fprintf(out, o->required ? " %s" : " [%s]", o->name);
         else if (o->required && o->letter)
@@ -91,6 +93,7 @@ void gm_options_help(const gm_command *command, FILE *out)
     }
     fputc('\n', out);
     for (int i = 0; i < command->n_options; i++)
-        print_option(&command->options[i], out);
+        if (command->options[i].help)
+            print_option(&command->options[i], out);
     fprintf(out, "  -h, --help%*sprint this\n", OPTION_COLUMN - 12, "");
 }

@@ -40,7 +40,7 @@ typedef struct gm_option {
     int required;
     const char *fallback; /* value when not given, as it would be written; or NULL */
     size_t offset;        /* of the field in the command's arguments */
-    const char *help;
+    const char *help;     /* NULL: not listed, as the one before it says it all */
 } gm_option;
 
 typedef struct gm_command {

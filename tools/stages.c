@@ -6,6 +6,7 @@
 
 #include "files.h"
 #include "fmu_probe.h"
+#include "keep_description.h"
 #include "options.h"
 #include "progress.h"
 
@@ -86,6 +87,8 @@ gm_status gm_stage_sweep(const gm_gearset_file *file, const gm_sweep_settings *s
     gm_progress_end(&progress);
     stage->path = path;
     stage->tolerance = settings->tolerance;
+    if (status == GM_OK && path)
+        status = gm_keep_description(file->description, path, error);
     return status == GM_ERR_INTERRUPTED ? interrupted(path, error) : status;
 }
 
@@ -183,6 +186,19 @@ void gm_stage_verify_clear(gm_verify_stage *stage)
     memset(stage, 0, sizeof *stage);
 }
 
+/* Kept one by one where one path carries load: these belong to the load loss tables. */
+static void keep_points(gm_verify_group group, const gm_verify_case *c,
+                        gm_map_error_point *point, gm_map_error *e)
+{
+    e->n_points = group == GM_VERIFY_SINGLE ? c->points : 0;
+    e->point = point;
+    for (int i = 0; i < e->n_points; i++)
+        point[i] = (gm_map_error_point){.speed = c->point[i].speed,
+                                        .torque = c->point[i].torque,
+                                        .detailed = c->point[i].detailed,
+                                        .reduced = c->point[i].reduced};
+}
+
 static void to_map_error(gm_verify_group group, const gm_verify_case *c, int n_paths,
                          gm_map_error *e)
 {
@@ -198,32 +214,41 @@ static void to_map_error(gm_verify_group group, const gm_verify_case *c, int n_p
                         .worst_torque = c->worst_torque};
 }
 
-static gm_map_error *to_map_errors(const gm_verify_result *r, int n_paths, int *n)
+/* points: room for those of a whole group */
+static void collect_errors(const gm_verify_result *r, int n_paths,
+                           gm_map_error_point *points, gm_map_error *errors)
 {
-    *n = 0;
     for (int g = 0; g < GM_VERIFY_GROUPS; g++)
-        *n += r->n_cases[g];
-    gm_map_error *errors = gm_calloc((size_t)*n, sizeof *errors), *next = errors;
-    for (int g = 0; errors && g < GM_VERIFY_GROUPS; g++)
-        for (int i = 0; i < r->n_cases[g]; i++)
-            to_map_error((gm_verify_group)g, &r->cases[g][i], n_paths, next++);
-    return errors;
+        for (int i = 0; i < r->n_cases[g]; i++) {
+            to_map_error((gm_verify_group)g, &r->cases[g][i], n_paths, errors);
+            keep_points((gm_verify_group)g, &r->cases[g][i], points, errors);
+            points += errors->n_points;
+            errors++;
+        }
 }
 
 gm_status gm_stage_keep(const gm_verify_stage *stage, const gm_map *map,
                         const char *result, const char *map_path, gm_error *error)
 {
     const gm_verify_result *r = &stage->result;
-    int n;
-    gm_map_error *errors = to_map_errors(r, map->n_paths, &n);
-    if (!errors)
-        return gm_fail(error, GM_ERR_MEMORY, "no memory for the measured errors");
-    const gm_map_verification verification = {.seed = (long long)r->seed,
-                                              .n_errors = n,
-                                              .errors = errors,
-                                              .n_results = result ? 1 : 0,
-                                              .results = &result};
-    gm_status status = gm_map_put_verification(map_path, &verification, error);
+    int n = 0;
+    for (int g = 0; g < GM_VERIFY_GROUPS; g++)
+        n += r->n_cases[g];
+    gm_map_error *errors = gm_calloc((size_t)n, sizeof *errors);
+    gm_map_error_point *points = gm_calloc((size_t)r->points, sizeof *points);
+    gm_status status = GM_ERR_MEMORY;
+    if (errors && points) {
+        collect_errors(r, map->n_paths, points, errors);
+        const gm_map_verification verification = {.seed = (long long)r->seed,
+                                                  .n_errors = n,
+                                                  .errors = errors,
+                                                  .n_results = result ? 1 : 0,
+                                                  .results = &result};
+        status = gm_map_put_verification(map_path, &verification, error);
+    } else {
+        (void)gm_fail(error, status, "no memory for the measured errors");
+    }
+    gm_free(points);
     gm_free(errors);
     return status;
 }

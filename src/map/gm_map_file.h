@@ -28,6 +28,12 @@ GM_NODISCARD gm_status gm_map_read(const char *path, gm_map **map, gm_error *err
 GM_NODISCARD gm_status gm_map_to_bytes(const gm_map *map, unsigned char **bytes,
                                        size_t *size, gm_error *error);
 
+/** One point at which the component was compared, loss torques as in its case. */
+typedef struct gm_map_error_point {
+    double speed, torque;     /* of the path [rad/s, N.m] */
+    double detailed, reduced; /* N.m */
+} gm_map_error_point;
+
 /** Error of the component that was made from a map, measured at points not on its grid.
  */
 typedef struct gm_map_error {
@@ -38,6 +44,8 @@ typedef struct gm_map_error {
     int points;
     double largest, max, rms;         /* largest loss of the case, errors [N.m] */
     double worst_speed, worst_torque; /* where the largest error is [rad/s, N.m] */
+    int n_points; /* that are kept one by one; 0: none, and none when read back */
+    const gm_map_error_point *point; /* [n_points] */
 } gm_map_error;
 
 /** What was measured on the component that was made from a map. */
@@ -49,8 +57,8 @@ typedef struct gm_map_verification {
     const char *const *results; /* [n_results] as `gearmap verify --json` prints them */
 } gm_map_verification;
 
-/** Write what was measured into a finished map's file (tables `verification`, `result`),
- *  in place of what is there, all of it or nothing. Map and content hash stay as they
+/** Write what was measured into a finished map's file (tables `verification`,
+ *  `verification_point`, `result`), in place of what is there, all of it or nothing. Map and content hash stay as they
  *  are. GM_ERR_IO, GM_ERR_FORMAT. */
 GM_NODISCARD gm_status gm_map_put_verification(const char *path,
                                                const gm_map_verification *verification,
@@ -67,6 +75,12 @@ void gm_map_errors_free(int n, gm_map_error *errors);
 GM_NODISCARD gm_status gm_map_get_results(const char *path, int *n, char ***results,
                                           gm_error *error);
 void gm_map_results_free(int n, char **results);
+
+/** Keep the text of the description that a map was made from in the map's file (table
+ *  `description`), in place of one that is there. Map and content hash stay as they are.
+ *  GM_ERR_IO, GM_ERR_FORMAT, GM_ERR_MEMORY. */
+GM_NODISCARD gm_status gm_map_put_description(const char *path, const char *text,
+                                              size_t size, gm_error *error);
 
 /** A sweep's journal beside the map to be: records of one size, of which the sweep knows
  *  the meaning (the points that it has solved). */

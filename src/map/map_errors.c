@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * What was measured, beside the map it belongs to: the table `verification` of a finished
- * map's file says how far the component is from the detailed gearset at points that the
- * sweep did not use, the table `result` keeps the whole results, of which a passport is
+ * What was measured, beside the map it belongs to: the tables `verification`
+ * and `verification_point` of a finished map's file say how far the component is from the
+ * detailed gearset at points that the sweep did not use, the table `result` keeps the whole results, of which a passport is
  * made. The map itself and its content hash do not change.
  */
 #include "base/alloc.h"
 #include "map/gm_map_file.h"
+#include "map/map_amend.h"
 #include "map/map_db.h"
 #include "map/map_place.h"
-#include "map/map_schema.h"
 
 #include <limits.h>
 #include <string.h>
@@ -32,7 +32,14 @@ static const char create[] = "CREATE TABLE IF NOT EXISTS result (json TEXT NOT N
                              "  worst_speed_rpm REAL NOT NULL,\n"
                              "  worst_torque_Nm REAL NOT NULL\n"
                              ");\n"
-                             "DELETE FROM verification";
+                             "CREATE TABLE IF NOT EXISTS verification_point (\n"
+                             "  verification INTEGER NOT NULL,\n"
+                             "  speed_rpm REAL NOT NULL,\n"
+                             "  torque_Nm REAL NOT NULL,\n"
+                             "  detailed_Nm REAL NOT NULL,\n"
+                             "  reduced_Nm REAL NOT NULL\n"
+                             ");\n"
+                             "DELETE FROM verification; DELETE FROM verification_point";
 
 static gm_status put_one(const gm_db *db, sqlite3_stmt *put, long long seed,
                          const gm_map_error *e, gm_error *error)
@@ -55,17 +62,43 @@ static gm_status put_one(const gm_db *db, sqlite3_stmt *put, long long seed,
     return gm_db_step(db, put, error);
 }
 
+/* Points go with the row of their case. */
+static gm_status put_points(const gm_db *db, sqlite3_stmt *put, const gm_map_error *e,
+                            gm_error *error)
+{
+    const sqlite3_int64 row = sqlite3_last_insert_rowid(db->handle);
+    gm_status status = GM_OK;
+    for (int i = 0; i < e->n_points && status == GM_OK; i++) {
+        const gm_map_error_point *point = &e->point[i];
+        (void)sqlite3_bind_int64(put, 1, row);
+        (void)sqlite3_bind_double(put, 2, point->speed * RPM);
+        (void)sqlite3_bind_double(put, 3, point->torque);
+        (void)sqlite3_bind_double(put, 4, point->detailed);
+        (void)sqlite3_bind_double(put, 5, point->reduced);
+        status = gm_db_step(db, put, error);
+    }
+    return status;
+}
+
 static gm_status put_errors(const gm_db *db, const gm_map_verification *v,
                             gm_error *error)
 {
-    sqlite3_stmt *put = NULL;
+    sqlite3_stmt *put = NULL, *put_point = NULL;
     gm_status status = gm_db_prepare(db,
                                      "INSERT INTO verification VALUES "
                                      "(?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
                                      &put, error);
-    for (int i = 0; i < v->n_errors && status == GM_OK; i++)
+    if (status == GM_OK)
+        status =
+            gm_db_prepare(db, "INSERT INTO verification_point VALUES (?, ?, ?, ?, ?)",
+                          &put_point, error);
+    for (int i = 0; i < v->n_errors && status == GM_OK; i++) {
         status = put_one(db, put, v->seed, &v->errors[i], error);
+        if (status == GM_OK)
+            status = put_points(db, put_point, &v->errors[i], error);
+    }
     (void)sqlite3_finalize(put);
+    (void)sqlite3_finalize(put_point);
     return status;
 }
 
@@ -82,8 +115,9 @@ static gm_status put_results(const gm_db *db, const gm_map_verification *v,
     return status;
 }
 
-static gm_status put_all(const gm_db *db, const gm_map_verification *v, gm_error *error)
+static gm_status put_all(const gm_db *db, const void *what, gm_error *error)
 {
+    const gm_map_verification *v = what;
     gm_status status = gm_db_run(db, create, error);
     if (status == GM_OK)
         status = put_errors(db, v, error);
@@ -94,22 +128,7 @@ gm_status gm_map_put_verification(const char *path,
                                   const gm_map_verification *verification,
                                   gm_error *error)
 {
-    gm_db db = {0};
-    if (!gm_place_exists(path))
-        return gm_fail(error, GM_ERR_IO, "%s: there is no such file", path);
-    gm_status status = gm_db_open(path, &db, error);
-    if (status == GM_OK)
-        status = gm_schema_is_map(&db, error);
-    if (status == GM_OK)
-        status = gm_db_run(&db, "BEGIN IMMEDIATE", error);
-    if (status == GM_OK) {
-        status = put_all(&db, verification, error);
-        gm_status end = gm_db_run(&db, status == GM_OK ? "COMMIT" : "ROLLBACK",
-                                  status == GM_OK ? error : NULL);
-        status = status == GM_OK ? end : status;
-    }
-    gm_db_close(&db);
-    return status;
+    return gm_amend(path, put_all, verification, error);
 }
 
 /* ---- and back ---- */

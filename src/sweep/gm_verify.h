@@ -32,6 +32,12 @@ typedef struct gm_reduced_probe {
     void *self;
 } gm_reduced_probe;
 
+/** One compared point. */
+typedef struct gm_verify_point {
+    double speed, torque;     /* of the path, rad/s, N.m */
+    double detailed, reduced; /* N.m */
+} gm_verify_point;
+
 /** Errors of one kind of point. Loss torques at the flange of the loaded path (of the
  *  faster path when both are loaded), drag at the path's flange, reaction at the output.
  */
@@ -46,6 +52,7 @@ typedef struct gm_verify_case {
     double worst_speed,
         worst_torque;          /* of the path, where the error is max: rad/s, N.m */
     double worst_output_speed; /* rad/s */
+    gm_verify_point *point;    /* [points], owned by the result */
 } gm_verify_case;
 
 typedef enum gm_verify_group {

@@ -130,6 +130,25 @@ static gm_status add_cases(run *r)
 
 /* ---- statistics ---- */
 
+/* Room grows to the next power of two. */
+static gm_status keep_point(gm_verify_case *c, const gm_verify_sample *sample,
+                            gm_error *error)
+{
+    const int n = c->points;
+    if ((n & (n - 1)) == 0) {
+        gm_verify_point *points =
+            gm_resize(c->point, n ? 2 * (size_t)n : 1, sizeof *points);
+        if (!points)
+            return gm_fail(error, GM_ERR_MEMORY, "no memory to verify");
+        c->point = points;
+    }
+    c->point[n] = (gm_verify_point){.speed = sample->speed,
+                                    .torque = sample->torque,
+                                    .detailed = sample->detailed,
+                                    .reduced = sample->reduced};
+    return GM_OK;
+}
+
 /* .rms and .rms_relative hold sums of squares until the group is finished. */
 static void add_sample(gm_verify_case *c, const gm_verify_sample *sample)
 {
@@ -197,6 +216,9 @@ static gm_status run_group(run *r, gm_verify_group group, const gm_reduced_probe
             return gm_fail(r->error, GM_ERR_MODEL,
                            "the reduced component answers %g at %g rad/s, %g N.m",
                            sample.reduced, sample.speed, sample.torque);
+        status = keep_point(&result->cases[group][i], &sample, r->error);
+        if (status != GM_OK)
+            return status;
         add_sample(&result->cases[group][i], &sample);
     }
     finish_group(result, group);
@@ -229,6 +251,8 @@ gm_status gm_verify_steady(const gm_plant *plant, const gm_reduced_probe *probe,
 void gm_verify_result_clear(gm_verify_result *result)
 {
     for (int group = 0; group < GM_VERIFY_GROUPS; group++) {
+        for (int i = 0; i < result->n_cases[group]; i++)
+            gm_free(result->cases[group][i].point);
         gm_free(result->cases[group]);
         result->cases[group] = NULL;
         result->n_cases[group] = 0;

@@ -265,3 +265,50 @@ def test_a_truncated_description(tmp_path):
     path = tmp_path / "half.yaml"
     path.write_text(TEXT[:len(TEXT) // 2])
     refused(path)
+
+
+def test_parts_stand_where_the_description_puts_them(checked):
+    parts = checked["parts"]
+    gears = {g["name"]: g for g in parts["gears"]}
+    shafts = {s["name"]: s for s in parts["shafts"]}
+    assert len(gears) == 20 and len(shafts) == 7 and len(parts["bearings"]) == 15
+    for mesh in parts["meshes"]:  # centre distance at zero backlash, shifts apart
+        a, b = (gears[name] for name in mesh["gears"])
+        distance = math.hypot(*(shafts[a["shaft"]][k] - shafts[b["shaft"]][k]
+                                for k in ("y_mm", "z_mm")))
+        radii = a["reference_radius_mm"] + b["reference_radius_mm"]
+        assert radii == pytest.approx(distance, abs=1.0)
+    assert {b["designation"] for b in parts["bearings"]} & {"6207", "6307", "6206"}
+
+
+def test_many_points_are_those_of_single_points(tmp_path):
+    table = tmp_path / "points.csv"
+    table.write_text("gear,preselected,speed_rpm,torque_Nm\n3,0,2000,100\n2,3,1500,-40\n")
+    text = succeeds("check", EXAMPLE, "--points", table).stdout
+    names, *rows = [line.split(",") for line in text.split()]
+    assert len(rows) == 2
+    for row, options in zip(rows, (("--gear", 3, "--speed", 2000, "--torque", 100),
+                                   ("--gear", 2, "--preselect", 3, "--speed", 1500,
+                                    "--torque=-40"))):
+        point = result_of("check", EXAMPLE, *options)["point"]
+        found = dict(zip(names, map(float, row)))
+        assert found["loss_W"] == pytest.approx(point["loss_W"], rel=1e-8)
+        assert found["efficiency"] == pytest.approx(point["efficiency"], rel=1e-8)
+        for kind, power in point["components_W"].items():
+            assert found[kind.replace(" ", "_") + "_W"] == pytest.approx(power, rel=1e-8)
+    listed = result_of("check", EXAMPLE, "--points", table)["points"]
+    assert [p["gear"] for p in listed] == [3, 2]
+
+
+@pytest.mark.parametrize("rows, words", [
+    ("speed_rpm,torque_Nm\n1,2\n", "the column gear is missing"),
+    ("gear,speed_rpm,torque_Nm\n0,1000,1\n", "a gear other than 0"),
+    ("gear,speed_rpm,torque_Nm\n1.5,1000,1\n", "the number of a gear"),
+    ("gear,speed_rpm,torque_Nm\n1,0,1\n", "a speed other than 0"),
+    ("gear,speed_rpm,torque_Nm\n9,1000,1\n", "there is no gear 9"),
+    ("gear,speed_rpm,torque_Nm,oil\n", "oil"),
+])
+def test_a_wrong_table_of_points_is_one_sentence(tmp_path, rows, words):
+    table = tmp_path / "points.csv"
+    table.write_text(rows)
+    assert words in fails("check", EXAMPLE, "--points", table)

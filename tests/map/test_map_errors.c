@@ -17,9 +17,13 @@
 
 #include <cmocka.h>
 
+static const gm_map_error_point points[] = {
+    {100.0, 55.0, 6.5, 6.52},
+    {200.0, -20.0, 1.5, 1.49},
+};
 static const gm_map_error errors[] = {
-    {"single", "odd", {3, 0}, 1, 120, 6.5, 0.02, 0.004, 100.0, 55.0},
-    {"drag", "even", {0, 0}, -1, 80, 0.4, 0.001, 0.0002, -300.0, 0.0},
+    {"single", "odd", {3, 0}, 1, 120, 6.5, 0.02, 0.004, 100.0, 55.0, 2, points},
+    {"drag", "even", {0, 0}, -1, 80, 0.4, 0.001, 0.0002, -300.0, 0.0, 0, NULL},
 };
 
 static const char *const results[] = {"{\"points\": 3}", "{\"cycle\": \"ä\"}"};
@@ -59,6 +63,46 @@ static void errors_stand_beside_an_unchanged_map(void **state)
     assert_true(file_only(file_path));
     gm_map_destroy(read);
     gm_map_destroy(map);
+}
+
+static void points_belong_to_their_case(void **state)
+{
+    (void)state;
+    gm_map *map = fixture_map(&fixture_full);
+    file_write_map(map);
+    assert_int_equal(put(7, 2, NULL), GM_OK);
+    assert_true(number("SELECT count(*) FROM verification_point p JOIN verification v "
+                       "ON v.rowid = p.verification WHERE v.kind = 'single'") == 2.0);
+    assert_true(number("SELECT reduced_Nm FROM verification_point "
+                       "WHERE torque_Nm = -20") == 1.49);
+    assert_int_equal(put(8, 0, NULL), GM_OK);
+    assert_true(number("SELECT count(*) FROM verification_point") == 0.0);
+    gm_map_destroy(map);
+}
+
+static void a_description_stands_beside_an_unchanged_map(void **state)
+{
+    const char text[] = "name: \xC3\xA9\n";
+    (void)state;
+    gm_map *map = fixture_map(&fixture_full);
+    file_write_map(map);
+    for (int i = 0; i < 2; i++) /* the second takes the place of the first */
+        assert_int_equal(gm_map_put_description(file_path, text, strlen(text), NULL),
+                         GM_OK);
+    gm_map *read = file_read_map(file_path);
+    assert_true(fixture_equal(map, read));
+    assert_true(number("SELECT count(*) FROM description") == 1.0);
+    assert_true(number("SELECT length(CAST(text AS BLOB)) FROM description") == 9.0);
+    gm_map_destroy(read);
+    gm_map_destroy(map);
+}
+
+static void a_description_needs_a_map(void **state)
+{
+    gm_error error = {0};
+    (void)state;
+    assert_int_equal(gm_map_put_description(file_path, "a", 1, &error), GM_ERR_IO);
+    assert_true(strstr(error.message, "there is no such file") != NULL);
 }
 
 static void later_errors_take_the_place_of_earlier_ones(void **state)
@@ -212,6 +256,12 @@ int main(void)
                                         file_teardown),
         cmocka_unit_test_setup_teardown(later_errors_take_the_place_of_earlier_ones,
                                         file_setup, file_teardown),
+        cmocka_unit_test_setup_teardown(points_belong_to_their_case, file_setup,
+                                        file_teardown),
+        cmocka_unit_test_setup_teardown(a_description_stands_beside_an_unchanged_map,
+                                        file_setup, file_teardown),
+        cmocka_unit_test_setup_teardown(a_description_needs_a_map, file_setup,
+                                        file_teardown),
         cmocka_unit_test_setup_teardown(errors_are_read_back, file_setup, file_teardown),
         cmocka_unit_test_setup_teardown(reading_errors_without_memory_leaves_nothing,
                                         file_setup, file_teardown),
