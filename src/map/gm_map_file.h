@@ -58,8 +58,8 @@ typedef struct gm_map_verification {
 } gm_map_verification;
 
 /** Write what was measured into a finished map's file (tables `verification`,
- *  `verification_point`, `result`), in place of what is there, all of it or nothing. Map and content hash stay as they
- *  are. GM_ERR_IO, GM_ERR_FORMAT. */
+ *  `verification_point`, `result`), in place of what is there, all of it or nothing. Map
+ *  and content hash stay as they are. GM_ERR_IO, GM_ERR_FORMAT. */
 GM_NODISCARD gm_status gm_map_put_verification(const char *path,
                                                const gm_map_verification *verification,
                                                gm_error *error);

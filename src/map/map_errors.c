@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * What was measured, beside the map it belongs to: the tables `verification`
- * and `verification_point` of a finished map's file say how far the component is from the
- * detailed gearset at points that the sweep did not use, the table `result` keeps the whole results, of which a passport is
- * made. The map itself and its content hash do not change.
+ * What was measured, beside the map it belongs to: the tables `verification` and
+ * `verification_point` of a finished map's file say how far the component is from the
+ * detailed gearset at points that the sweep did not use, the table `result` keeps the
+ * whole results, of which a passport is made. The map itself and its content hash do not
+ * change.
  */
 #include "base/alloc.h"
 #include "map/gm_map_file.h"
 #include "map/map_amend.h"
 #include "map/map_db.h"
 #include "map/map_place.h"
+#include "map/map_schema.h"
 
 #include <limits.h>
 #include <string.h>
