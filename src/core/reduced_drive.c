@@ -60,30 +60,40 @@ gm_real gm_cone_torque(const gm_reduced_params *params, int p, gm_real slip)
     return slip > 0 ? capacity : slip < 0 ? -capacity : 0;
 }
 
+static void drive_engaged(const gm_reduced_params *params, const gm_gear *gear, int p,
+                          gm_drive *d)
+{
+    const gm_real r = gear->ratio;
+    d->elastic[p] = d->own[p] = gm_is_elastic(params, gear);
+    d->inertia_own += gear->inertia_extra;
+    d->inertia[GM_OUT] += gear->inertia_extra;
+    if (!d->elastic[p]) {
+        d->inertia[GM_OUT] += r * r * d->inertia[p];
+    }
+}
+
 static void drive_path(const gm_reduced_map *map, const gm_reduced_params *params,
                        const gm_motion *s, int p, gm_drive *d)
 {
     const gm_path_state *path = &s->path[p];
-    const gm_gear *gear = gm_motion_gear(map, s, p);
-    const int engaged = path->mode == GM_PATH_ENGAGED;
-    const gm_real ratio = gear ? gear->ratio : 0, inertia = map->path[p].inertia;
-    const int elastic = engaged && gm_is_elastic(params, gear);
-    d->engaged[p] = engaged;
-    d->free[p] = !engaged;
-    d->elastic[p] = elastic;
-    d->own[p] = !engaged || elastic;
+    const gm_path *part = &map->path[p];
+    const gm_gear *gear = path->mode == GM_PATH_NEUTRAL ? NULL : &part->gears[path->gear];
+    d->engaged[p] = path->mode == GM_PATH_ENGAGED;
+    d->free[p] = d->own[p] = !d->engaged[p];
+    d->elastic[p] = 0;
     d->twist[p] = path->twist;
     d->gear[p] = gear;
-    d->ratio[p] = ratio;
-    d->inertia[p] = inertia;
+    d->gear_index[p] = path->gear;
+    d->ratio[p] = gear ? gear->ratio : 0;
+    d->inertia[p] = part->inertia;
     d->w[p] = path->w;
-    d->cone[p] = path->mode == GM_PATH_SYNCHRONISING
-                     ? gm_cone_torque(params, p, path->w - ratio * s->w_o)
-                     : 0;
-    d->index = d->index * (map->path[p].n_gears + 1) + (engaged ? path->gear + 1 : 0);
-    d->inertia_own += engaged ? gear->inertia_extra : 0;
-    d->inertia[GM_OUT] += engaged ? gear->inertia_extra : 0;
-    d->inertia[GM_OUT] += d->own[p] ? 0 : ratio * ratio * inertia;
+    d->cone[p] = 0;
+    if (d->engaged[p]) {
+        drive_engaged(params, gear, p, d);
+    } else if (gear) {
+        d->cone[p] = gm_cone_torque(params, p, path->w - gear->ratio * s->w_o);
+    }
+    d->index = d->index * (part->n_gears + 1) + (d->engaged[p] ? path->gear + 1 : 0);
 }
 
 static void drive_no_path(int p, gm_drive *d)

@@ -81,6 +81,7 @@ typedef struct gm_drive {
     int own[GM_MAX_PATHS];             /* free or elastic: has a speed of its own */
     gm_real twist[GM_MAX_PATHS];       /* at the start of the sub-step */
     const gm_gear *gear[GM_MAX_PATHS]; /* engaged or being synchronised, else NULL */
+    int gear_index[GM_MAX_PATHS];      /* of that gear in its path */
     gm_real ratio[GM_MAX_PATHS];       /* of that gear, else 0 */
     gm_real cone[GM_MAX_PATHS];        /* T_c, signed [N.m] */
     gm_real inertia[GM_SHAFTS];        /* J_p; J_s of the configuration at the output */

@@ -49,7 +49,7 @@ static gm_real coupling_at(const gm_drive *d, const gm_solution *s, const gm_poi
 /* Number of a gear and a direction, from 1. */
 static int gear_key(const gm_drive *d, int p, int dir)
 {
-    return 1 + 2 * (int)(d->gear[p] - d->map->path[p].gears) + dir;
+    return 1 + 2 * d->gear_index[p] + dir;
 }
 
 static void load_terms(const gm_drive *d, int p, gm_real sign_o, const gm_point *at,
@@ -251,9 +251,9 @@ static int load_holds(const gm_drive *d, const gm_solution *s, int p, gm_real x,
 {
     const gm_patch *c = &d->cache->path[p];
     const gm_real sigma = d->ratio[p] < 0 ? -s->sign[GM_OUT] : s->sign[GM_OUT];
-    const gm_real w = gm_abs(d->ratio[p]) * x;
-    const gm_real dx = gm_abs(d->ratio[p]) * (to->m[GM_OUT] - at->m[GM_OUT]);
-    return gm_in_patch(c, w, sigma * to->tau_m[p]) &&
+    const gm_real r = gm_abs(d->ratio[p]), w = r * x, tau = sigma * to->tau_m[p];
+    const gm_real dx = r * (to->m[GM_OUT] - at->m[GM_OUT]);
+    return gm_in_patch(c, w, tau) &&
            gm_is_small(c->a.cxy * dx * (to->tau_m[p] - at->tau_m[p]),
                        s->terms.path[p].load) &&
            (!d->elastic[p] || d->gear[p]->pin[0].value == NULL ||
@@ -261,22 +261,20 @@ static int load_holds(const gm_drive *d, const gm_solution *s, int p, gm_real x,
 }
 
 /* Of the remainder the part of the two torques is the largest by far: each changes with
- * the acceleration, the speed only with half a step of it. It does not fall with the step
- * (the first guess of the acceleration may be wrong at any), so next to nothing of it may
- * be left out. */
+ * the acceleration, the speed only with half a step of it. At an instant it is left to
+ * nothing. */
 static int both_loaded_holds(const gm_drive *d, const gm_solution *s, gm_real x,
                              const gm_point *at, const gm_point *to)
 {
     const gm_real sigma = s->sign[GM_OUT];
     const gm_block *b = &d->cache->both_loaded;
-    const gm_real q[3] = {x,
-                          d->ratio[0] < 0 ? -sigma * to->tau_m[0] : sigma * to->tau_m[0],
-                          d->ratio[1] < 0 ? -sigma * to->tau_m[1] : sigma * to->tau_m[1]};
-    return !d->engaged[0] || !d->engaged[1] ||
-           d->configuration->both_loaded[gm_direction(sigma)].value == NULL ||
-           (gm_in_block(b, q) &&
-            gm_abs(b->c[0][1][1] * (to->tau_m[0] - at->tau_m[0]) *
-                   (to->tau_m[1] - at->tau_m[1])) <= GM_REMAINDER_NM);
+    const gm_real rest = b->c[0][1][1] * (to->tau_m[0] - at->tau_m[0]) *
+                         (to->tau_m[1] - at->tau_m[1]);
+    const gm_real q[3] = {
+        x, d->ratio[0] < 0 ? -sigma * to->tau_m[0] : sigma * to->tau_m[0],
+        d->ratio[1] < 0 ? -sigma * to->tau_m[1] : sigma * to->tau_m[1]};
+    return d->configuration->both_loaded[gm_direction(sigma)].value == NULL ||
+           (gm_in_block(b, q) && gm_is_small(rest, d->h > 0 ? s->terms.out : 0));
 }
 
 static int output_holds(const gm_drive *d, const gm_solution *s, const gm_point *at,
@@ -285,7 +283,7 @@ static int output_holds(const gm_drive *d, const gm_solution *s, const gm_point 
     const gm_real from = s->sign[GM_OUT] * at->m[GM_OUT];
     const gm_real speed = s->sign[GM_OUT] * to->m[GM_OUT], x = gm_not_below_zero(speed);
     if ((from < 0) != (speed < 0) || !gm_in_strip(&d->cache->parasitic, x) ||
-        !both_loaded_holds(d, s, x, at, to)) {
+        (d->engaged[0] && d->engaged[1] && !both_loaded_holds(d, s, x, at, to))) {
         return 0;
     }
     for (int p = 0; p < d->n_paths; p++) {
