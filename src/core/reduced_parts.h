@@ -17,8 +17,9 @@ enum { GM_PARTS = 2 };
 
 enum { GM_OUT = GM_MAX_PATHS, GM_SHAFTS = GM_MAX_PATHS + 1 };
 
-/* From here on a cone capacity counts as infinite: engagement at once. */
-#define GM_SYNC_AT_ONCE GM_NUM(1e30)
+/* N.m at the input flange. From here on a cone capacity counts as infinite: engagement at
+ * once, as it would be within microseconds. */
+#define GM_SYNC_AT_ONCE GM_NUM(1e12)
 
 /* The state without its caches: what a step computes and then commits or drops. */
 typedef struct gm_motion {

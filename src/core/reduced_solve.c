@@ -31,6 +31,9 @@ enum { GM_PASSES = 60, GM_FREE_PASSES = 3, GM_ROUNDS = 2 * GM_SHAFTS + 1 };
 
 #define GM_FAR GM_BY_TYPE(1e300, 1e38) /* bracket that excludes nothing */
 
+/* Relative change of a pass that is none. */
+#define GM_SETTLED GM_BY_TYPE(1e-14, 1e-6)
+
 /* ---- the passes ---- */
 
 /* A place where tables are read: accelerations and springs' torques. */
@@ -239,6 +242,22 @@ static void reset_brackets(bracket b[GM_PLACE])
     }
 }
 
+/* The pass has led back to where it began: there is nothing more to find. */
+static int is_settled(const gm_point *at, const gm_point *to)
+{
+    for (int k = 0; k < GM_SHAFTS; k++) {
+        if (gm_abs(to->a[k] - at->a[k]) > GM_SETTLED * gm_abs(at->a[k])) {
+            return 0;
+        }
+    }
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        if (gm_abs(to->spring[p] - at->spring[p]) > GM_SETTLED * gm_abs(at->spring[p])) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
 /* Passes after the first, which has led from *at to s->point. */
 static void more_passes(const gm_drive *d, gm_solution *s, gm_point *at)
 {
@@ -256,7 +275,8 @@ static void more_passes(const gm_drive *d, gm_solution *s, gm_point *at)
         }
         *at = next;
         one_pass(d, s, at);
-        if (gm_terms_hold(d, s, at, &s->point)) {
+        if (gm_terms_hold(d, s, at, &s->point) ||
+            (s->lead == lead && is_settled(at, &s->point))) {
             return;
         }
     }

@@ -7,7 +7,7 @@
  * the sub-step ends there, the speed or speed difference becomes exactly zero, and the
  * rest of the step goes on from there: friction never acts along the motion, so a passive
  * map gives a loss energy that never falls, and events cost no order of accuracy. What
- * the location leaves of the speed (1e-10 of it) is removed as an impulse of the friction
+ * the location leaves of the speed (1e-8 of it) is removed as an impulse of the friction
  * that is acting, with its energy in the account. Bounds: GM_SUBSTEPS events in a step
  * (those beyond are treated at the end of the step), GM_LOCATE solutions for each.
  *
@@ -26,7 +26,8 @@ enum { GM_LOCATE = 16 }; /* solutions to locate one event */
 #define CALM_NM GM_NUM(0.2)
 
 /* Of the speed at the start of the sub-step. */
-#define GM_EVENT_TOLERANCE GM_BY_TYPE(1e-10, 1e-5)
+/* Of the speed at the start of the sub-step. */
+#define GM_EVENT_TOLERANCE GM_BY_TYPE(1e-8, 1e-4)
 
 /* Events: shafts 0, 1, GM_OUT come to rest, then synchronisers 0, 1 close. */
 enum { GM_CLOSES = GM_SHAFTS, GM_EVENTS = GM_SHAFTS + GM_MAX_PATHS };
