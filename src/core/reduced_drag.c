@@ -74,12 +74,19 @@ static void add_bound(int bound, gm_real r, gm_real sign_o, gm_patch *c)
     }
 }
 
+/* sat(x) where it is constant, 0 on the ramp. */
+static int side_of(gm_real x)
+{
+    return x >= GM_LINE_WIDTH ? 1 : x <= -GM_LINE_WIDTH ? -1 : 0;
+}
+
 static void add_bounds(gm_real r, const place *q, gm_patch *c)
 {
-    const gm_real slip = q->w - r * q->w_o, rest = GM_LINE_WIDTH / gm_abs(r);
-    if (slip >= GM_LINE_WIDTH) {
+    const gm_real rest = GM_LINE_WIDTH / gm_abs(r);
+    const int side = side_of(q->w - r * q->w_o);
+    if (side > 0) {
         add_bound(ABOVE_RAMP, r, q->sign_o, c);
-    } else if (slip <= -GM_LINE_WIDTH) {
+    } else if (side < 0) {
         add_bound(BELOW_RAMP, r, q->sign_o, c);
     } else {
         add_bound(ABOVE_START, r, q->sign_o, c);
@@ -117,49 +124,53 @@ static gm_surface about_corner(const gm_table2 *t, const place *q, const gm_spot
 }
 
 /* k (half + slope v) (c + cx u + cy v) */
-static void add_product(gm_real k, const gm_real half[2], const gm_real ramp[3],
+static void add_product(gm_real k, const gm_strip *half, const gm_real ramp[3],
                         gm_surface *s)
 {
-    s->c += k * half[0] * ramp[0];
-    s->cx += k * half[0] * ramp[1];
-    s->cy += k * (half[0] * ramp[2] + half[1] * ramp[0]);
-    s->cxy += k * half[1] * ramp[1];
-    s->cyy += k * half[1] * ramp[2];
+    s->c += k * half->c * ramp[0];
+    s->cx += k * half->c * ramp[1];
+    s->cy += k * (half->c * ramp[2] + half->cx * ramp[0]);
+    s->cxy += k * half->cx * ramp[1];
+    s->cyy += k * half->cx * ramp[2];
 }
 
-/* sat(w_n - r w_o) and sat(r w_o) over the patch: c + cx u + cy v. */
-static void ramps_of(gm_real r, const place *q, const gm_patch *c, gm_real slip[3],
-                     gm_real rest[3])
+/* A line on one of its ramps: sat(w_n - r w_o) and sat(r w_o) as c + cx u + cy v. */
+static void add_ramps(gm_real r, const place *q, const gm_strip *half, int slips,
+                      int rests, gm_patch *c)
 {
-    const gm_real turn = r * q->sign_o / GM_LINE_WIDTH, now = q->w - r * q->w_o;
+    const gm_real turn = r * q->sign_o / GM_LINE_WIDTH;
     const gm_real ahead = q->sign_n / GM_LINE_WIDTH;
-    slip[0] = now > 0 ? 1 : -1;
-    slip[1] = slip[2] = rest[1] = rest[2] = 0;
-    if (now < GM_LINE_WIDTH && now > -GM_LINE_WIDTH) {
+    gm_real slip[3] = {(gm_real)slips, 0, 0}, both[3];
+    if (slips == 0) {
         slip[0] = ahead * c->x_low - turn * c->y_low;
         slip[1] = ahead;
         slip[2] = -turn;
     }
-    rest[0] = turn > 0 ? 1 : -1;
-    if (q->y < GM_LINE_WIDTH / gm_abs(r)) {
-        rest[0] = turn * c->y_low;
-        rest[2] = turn;
-    }
+    both[0] = slip[0] + (rests ? (gm_real)rests : turn * c->y_low);
+    both[1] = slip[1];
+    both[2] = slip[2] + (rests ? 0 : turn);
+    add_product(1, half, slip, &c->a);
+    add_product(-r, half, both, &c->b);
 }
 
 static void add_line(const gm_drag_line *line, const place *q, const gm_spot *y,
                      gm_patch *c)
 {
-    const gm_real r = line->ratio, v = y->next ? c->y_low - y->low : 0;
-    const gm_strip jump = gm_line_at(&line->jump[q->j], q->y, y);
-    const gm_real half[2] = {(jump.c + jump.cx * v) / 2, jump.cx / 2};
-    gm_real slip[3], rest[3];
-    ramps_of(r, q, c, slip, rest);
-    add_product(1, half, slip, &c->a);
-    for (int i = 0; i < 3; i++) {
-        rest[i] += slip[i];
+    const gm_real r = line->ratio;
+    const int slips = side_of(q->w - r * q->w_o);
+    const int rests = q->y < GM_LINE_WIDTH / gm_abs(r) ? 0 : r * q->sign_o > 0 ? 1 : -1;
+    gm_strip half = gm_line_at(&line->jump[q->j], q->y, y);
+    half.cx /= 2;
+    half.c = half.c / 2 + half.cx * (y->next ? c->y_low - y->low : 0);
+    if (slips == 0 || rests == 0) {
+        add_ramps(r, q, &half, slips, rests, c);
+        return;
     }
-    add_product(-r, half, rest, &c->b);
+    const gm_real k = -r * (gm_real)(slips + rests);
+    c->a.c += (gm_real)slips * half.c;
+    c->a.cy += (gm_real)slips * half.cx;
+    c->b.c += k * half.c;
+    c->b.cy += k * half.cx;
 }
 
 /* The spot on another axis: the same one if the axis is. */

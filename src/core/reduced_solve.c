@@ -31,7 +31,7 @@ enum { GM_PASSES = 60, GM_FREE_PASSES = 3, GM_ROUNDS = 2 * GM_SHAFTS + 1 };
 
 #define GM_FAR GM_BY_TYPE(1e300, 1e38) /* bracket that excludes nothing */
 
-/* Relative change of a pass that is none. */
+/* Relative change of speeds and torques that is none. */
 #define GM_SETTLED GM_BY_TYPE(1e-14, 1e-6)
 
 /* ---- the passes ---- */
@@ -242,20 +242,20 @@ static void reset_brackets(bracket b[GM_PLACE])
     }
 }
 
-/* The pass has led back to where it began: there is nothing more to find. */
-static int is_settled(const gm_point *at, const gm_point *to)
+static int is_same(gm_real from, gm_real to, gm_real least)
 {
-    for (int k = 0; k < GM_SHAFTS; k++) {
-        if (gm_abs(to->a[k] - at->a[k]) > GM_SETTLED * gm_abs(at->a[k])) {
-            return 0;
-        }
+    return gm_abs(to - from) <= GM_SETTLED * (gm_abs(from) + least);
+}
+
+/* The pass has led back to where it began: there is nothing more to find. */
+static int is_settled(const gm_drive *d, const gm_point *at, const gm_point *to)
+{
+    int same = is_same(at->m[GM_OUT], to->m[GM_OUT], 0);
+    for (int p = 0; p < d->n_paths; p++) {
+        same = same && is_same(at->m[p], to->m[p], 0) &&
+               (d->free[p] || is_same(at->tau_m[p], to->tau_m[p], 1));
     }
-    for (int p = 0; p < GM_MAX_PATHS; p++) {
-        if (gm_abs(to->spring[p] - at->spring[p]) > GM_SETTLED * gm_abs(at->spring[p])) {
-            return 0;
-        }
-    }
-    return 1;
+    return same;
 }
 
 /* Passes after the first, which has led from *at to s->point. */
@@ -276,7 +276,7 @@ static void more_passes(const gm_drive *d, gm_solution *s, gm_point *at)
         *at = next;
         one_pass(d, s, at);
         if (gm_terms_hold(d, s, at, &s->point) ||
-            (s->lead == lead && is_settled(at, &s->point))) {
+            (s->lead == lead && is_settled(d, at, &s->point))) {
             return;
         }
     }

@@ -268,11 +268,11 @@ static int both_loaded_holds(const gm_drive *d, const gm_solution *s, gm_real x,
 {
     const gm_real sigma = s->sign[GM_OUT];
     const gm_block *b = &d->cache->both_loaded;
-    const gm_real rest = b->c[0][1][1] * (to->tau_m[0] - at->tau_m[0]) *
-                         (to->tau_m[1] - at->tau_m[1]);
-    const gm_real q[3] = {
-        x, d->ratio[0] < 0 ? -sigma * to->tau_m[0] : sigma * to->tau_m[0],
-        d->ratio[1] < 0 ? -sigma * to->tau_m[1] : sigma * to->tau_m[1]};
+    const gm_real rest =
+        b->c[0][1][1] * (to->tau_m[0] - at->tau_m[0]) * (to->tau_m[1] - at->tau_m[1]);
+    const gm_real q[3] = {x,
+                          d->ratio[0] < 0 ? -sigma * to->tau_m[0] : sigma * to->tau_m[0],
+                          d->ratio[1] < 0 ? -sigma * to->tau_m[1] : sigma * to->tau_m[1]};
     return d->configuration->both_loaded[gm_direction(sigma)].value == NULL ||
            (gm_in_block(b, q) && gm_is_small(rest, d->h > 0 ? s->terms.out : 0));
 }
