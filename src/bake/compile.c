@@ -97,10 +97,16 @@ static const char *const flags[] = {
 };
 enum { N_FLAGS = sizeof flags / sizeof *flags, MOST_ARGUMENTS = 32 };
 
-/* Command line for execv; words is scratch that it points into. */
-static void fill_arguments(const gm_compiler *compiler, const char *map_prefix,
-                           char *words, int n, const char *const *sources,
-                           const char *output, const char **argument)
+/* Over all files at once, which makes a step a fifth faster. Compilers that lack a part
+ * for it fail, and are called again without. */
+static const char together[] = "-flto";
+
+/* Command line for execv; words is scratch that it points into. extra: one more flag, or
+ * NULL. */
+static void fill_arguments(const gm_compiler *compiler, const char *extra,
+                           const char *map_prefix, char *words, int n,
+                           const char *const *sources, const char *output,
+                           const char **argument)
 {
     int k = 0;
     char *rest = NULL;
@@ -110,6 +116,8 @@ static void fill_arguments(const gm_compiler *compiler, const char *map_prefix,
         argument[k++] = word;
     for (int i = 0; i < N_FLAGS; i++)
         argument[k++] = flags[i];
+    if (extra)
+        argument[k++] = extra;
     argument[k++] = map_prefix;
     argument[k++] = "-o";
     argument[k++] = output;
@@ -179,21 +187,36 @@ static gm_status run(const char **argument, const char *folder, char *text, size
     return GM_OK;
 }
 
-gm_status gm_compile(const gm_compiler *compiler, const char *folder, int n,
-                     const char *const *sources, const char *output, gm_error *error)
+/* Call the compiler once; *code receives its exit code, text what it says. */
+static gm_status compile_once(const gm_compiler *compiler, const char *extra,
+                              const char *folder, int n, const char *const *sources,
+                              const char *output, char *text, size_t size, int *code,
+                              gm_error *error)
 {
-    char words[sizeof compiler->arguments], prefix[4096], text[560], library[4608];
-    int code = 0;
+    char words[sizeof compiler->arguments], prefix[4096];
     const char **argument =
-        gm_calloc((size_t)(n + N_FLAGS + MOST_ARGUMENTS + 6), sizeof *argument);
+        gm_calloc((size_t)(n + N_FLAGS + MOST_ARGUMENTS + 7), sizeof *argument);
     if (!argument)
         return gm_fail(error, GM_ERR_MEMORY, "no memory to call the C compiler");
     snprintf(words, sizeof words, "%s", compiler->arguments);
     snprintf(prefix, sizeof prefix, "-ffile-prefix-map=%s=.", folder);
-    snprintf(library, sizeof library, "%s/%s", folder, output);
-    fill_arguments(compiler, prefix, words, n, sources, output, argument);
-    gm_status status = run(argument, folder, text, sizeof text, &code, error);
+    fill_arguments(compiler, extra, prefix, words, n, sources, output, argument);
+    gm_status status = run(argument, folder, text, size, code, error);
     gm_free(argument);
+    return status;
+}
+
+gm_status gm_compile(const gm_compiler *compiler, const char *folder, int n,
+                     const char *const *sources, const char *output, gm_error *error)
+{
+    char text[560], library[4608];
+    int code = 0;
+    snprintf(library, sizeof library, "%s/%s", folder, output);
+    gm_status status = compile_once(compiler, together, folder, n, sources, output, text,
+                                    sizeof text, &code, error);
+    if (status == GM_OK && code != 0)
+        status = compile_once(compiler, NULL, folder, n, sources, output, text,
+                              sizeof text, &code, error);
     if (status != GM_OK)
         return status;
     if (code != 0)
