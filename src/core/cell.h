@@ -31,10 +31,6 @@ gm_value1 gm_monotone1(const gm_table1 *t, int table, gm_cell1 *cell, gm_real x)
 gm_value2 gm_monotone2(const gm_table2 *t, int table, gm_cell2 *cell, gm_real x,
                        gm_real y);
 
-/* What the tangent plane at (x, y) leaves out at (x_to, y_to), in the cell of both. */
-gm_real gm_monotone2_rest(const gm_cell2 *cell, gm_real x, gm_real y, gm_real x_to,
-                          gm_real y_to);
-
 gm_value1 gm_cell1_refill(const gm_table1 *t, int table, gm_cell1 *cell, gm_real x);
 gm_value2 gm_cell2_refill(const gm_table2 *t, int table, gm_cell2 *cell, gm_real x,
                           gm_real y);

@@ -68,8 +68,7 @@ typedef struct gm_table3 {
 typedef struct gm_cell1 {
     int table;
     gm_real x_low, x_high; /* the cell's bounds */
-    gm_real c0, cx;        /* value = c0 + cx (x - x_low). Monotone: c0 is the largest
-                              |curvature| of the cell, 0 outside of the table */
+    gm_real c0, cx;        /* value = c0 + cx (x - x_low); not used if monotone */
 } gm_cell1;
 
 typedef struct gm_cell2 {

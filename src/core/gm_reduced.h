@@ -199,6 +199,9 @@ typedef struct gm_reduced_cache {
     gm_strip parasitic, coupling, pin[GM_MAX_PATHS];
     gm_patch path[GM_MAX_PATHS];
     gm_block both_loaded;
+#if GM_CURVED
+    gm_cell2 curved[GM_MAX_PATHS][2]; /* of monotone tables: D or N, R */
+#endif
 } gm_reduced_cache;
 
 /** Speed of every independent shaft and the accounts; plain data without pointers. */

@@ -154,15 +154,11 @@ gm_value1 gm_monotone1(const gm_table1 *t, int table, gm_cell1 *cell, gm_real x)
     const int next = t->x.n > 1;
     const gm_real m_0 = slope_1(t, p.i), m_1 = slope_1(t, p.i + next);
     const gm_real near = GM_NODE(t, p.i), far = GM_NODE(t, p.i + next);
-    const gm_real width = next ? p.high - p.low : 0;
     gm_real c[4];
     cubic(near, far, m_0, m_1, p.slope, c);
-    const gm_real bend_0 = 2 * magnitude(c[2]);
-    const gm_real bend_1 = magnitude(2 * c[2] + 6 * c[3] * width);
     cell->table = -table;
     cell->x_low = p.low;
     cell->x_high = p.high;
-    cell->c0 = p.outside ? 0 : bend_0 > bend_1 ? bend_0 : bend_1;
     gm_value1 v;
     v.value = p.far ? far : at(c, p.q - p.low);
     v.dx = p.outside ? 0 : p.far ? m_1 : slope_at(c, p.q - p.low);
@@ -332,20 +328,4 @@ gm_value2 gm_monotone2(const gm_table2 *t, int table, gm_cell2 *c, gm_real x, gm
     v.dy = q.outside ? 0 : v.dy;
     v.outside = p.outside || q.outside;
     return v;
-}
-
-static gm_real clamped(gm_real x, gm_real low, gm_real high)
-{
-    return x < low ? low : x > high ? high : x;
-}
-
-gm_real gm_monotone2_rest(const gm_cell2 *c, gm_real x, gm_real y, gm_real x_to,
-                          gm_real y_to)
-{
-    const gm_real from_x = clamped(x, c->x_low, c->x_high);
-    const gm_real from_y = clamped(y, c->y_low, c->y_high);
-    const gm_real to_x = clamped(x_to, c->x_low, c->x_high);
-    const gm_real to_y = clamped(y_to, c->y_low, c->y_high);
-    const gm_value2 from = inside(c, from_x, from_y), to = inside(c, to_x, to_y);
-    return to.value - from.value - from.dx * (to_x - from_x) - from.dy * (to_y - from_y);
 }

@@ -85,18 +85,17 @@ gm_surface gm_surface_at(const gm_table2 *t, const gm_spot *x, const gm_spot *y)
     return s;
 }
 
-gm_surface gm_tangent_at(const gm_table2 *t, gm_real x, gm_real y, const gm_spot *p,
-                         const gm_spot *q)
+gm_surface gm_tangent_at(const gm_table2 *t, int key, gm_cell2 *cell, gm_real x,
+                         gm_real y, const gm_spot *p, const gm_spot *q)
 {
-    static const gm_cell2 empty = {0};
-    gm_cell2 cell = empty;
-    const gm_value2 v = gm_monotone2(t, 1, &cell, x, y);
+    const gm_value2 v = gm_monotone2(t, key, cell, x, y);
     const gm_real dx = p->next ? v.dx : 0, dy = q->next ? v.dy : 0;
     const gm_surface s = {v.value + dx * (p->low - x) + dy * (q->low - y), dx, dy, 0, 0};
     return s;
 }
 
-void gm_fill_patch(const gm_table2 *t, int key, gm_real x, gm_real y, gm_patch *c)
+void gm_fill_patch(const gm_table2 *t, int key, gm_cell2 *curved, gm_real x, gm_real y,
+                   gm_patch *c)
 {
     const gm_spot p =
         GM_CURVED && t->monotone ? gm_spot_near(&t->x, x) : gm_spot_on(&t->x, x);
@@ -108,7 +107,7 @@ void gm_fill_patch(const gm_table2 *t, int key, gm_real x, gm_real y, gm_patch *
     c->x_high = p.high;
     c->y_low = q.low;
     c->y_high = q.high;
-    c->a = GM_CURVED && t->monotone ? gm_tangent_at(t, x, y, &p, &q)
+    c->a = GM_CURVED && t->monotone ? gm_tangent_at(t, key, curved, x, y, &p, &q)
                                     : gm_surface_at(t, &p, &q);
 }
 

@@ -31,16 +31,31 @@ gm_spot gm_spot_on(const gm_axis *axis, gm_real q);
 /** The same for a monotone table: where its tangent at q may be used. */
 gm_spot gm_spot_near(const gm_axis *axis, gm_real q);
 
-/** Fill a range of a table around (x, y). gm_fill_patch: surface a alone. */
+/** Fill a range of a table around (x, y). gm_fill_patch: surface a alone; curved: cell for
+ *  a monotone table. */
 void gm_fill_strip(const gm_table1 *t, int key, gm_real x, gm_strip *s);
-void gm_fill_patch(const gm_table2 *t, int key, gm_real x, gm_real y, gm_patch *c);
+void gm_fill_patch(const gm_table2 *t, int key, gm_cell2 *curved, gm_real x, gm_real y,
+                   gm_patch *c);
 void gm_fill_block(const gm_table3 *t, int key, const gm_real q[3], gm_block *b);
 
 /** Surface of a table from low ends within the cells of its spots; of a monotone one the
- *  tangent at (x, y), from the low ends of the spots. */
+ *  tangent at (x, y), from the low ends of the spots; key and cell as in gm_interp.h. */
 gm_surface gm_surface_at(const gm_table2 *t, const gm_spot *x, const gm_spot *y);
-gm_surface gm_tangent_at(const gm_table2 *t, gm_real x, gm_real y, const gm_spot *p,
-                         const gm_spot *q);
+gm_surface gm_tangent_at(const gm_table2 *t, int key, gm_cell2 *cell, gm_real x,
+                         gm_real y, const gm_spot *p, const gm_spot *q);
+
+/** Cell of a path for monotone tables; NULL where there are none. */
+static inline gm_cell2 *gm_curved_cell(gm_reduced_cache *cache, int p, int i)
+{
+#if GM_CURVED
+    return &cache->curved[p][i];
+#else
+    (void)cache;
+    (void)p;
+    (void)i;
+    return 0;
+#endif
+}
 
 /** The line of a table from the low end of the spot of x; low and high are the spot's. */
 gm_strip gm_line_at(const gm_table1 *t, gm_real x, const gm_spot *p);

@@ -37,10 +37,10 @@ static place place_of(int p, gm_real sign_n, gm_real sign_o, const gm_point *at)
     return q;
 }
 
-/* Number of the tables of a quadrant, negative: load losses have the positive ones. */
+/* Number of the tables of a quadrant, 1 to 4: load losses have those from 8 on. */
 static int quadrant(const place *q)
 {
-    return -(1 + 2 * q->i + q->j);
+    return 1 + 2 * q->i + q->j;
 }
 
 static int has(const gm_patch *c, int bound)
@@ -109,12 +109,19 @@ static void narrow(const gm_spot *x, const gm_spot *y, gm_patch *c)
     c->outside = (short)(c->outside | x->outside | y->outside);
 }
 
+/* Place of a table. */
+typedef struct spots {
+    gm_spot x, y;
+} spots;
+
 /* The surface of a table in its spots about the corner of the patch. */
-static gm_surface about_corner(const gm_table2 *t, const place *q, const gm_spot *x,
-                               const gm_spot *y, const gm_patch *c)
+static gm_surface about_corner(const gm_table2 *t, gm_cell2 *curved, const place *q,
+                               const spots *at, const gm_patch *c)
 {
-    gm_surface s = GM_CURVED && t->monotone ? gm_tangent_at(t, q->x, q->y, x, y)
-                                            : gm_surface_at(t, x, y);
+    const gm_spot *x = &at->x, *y = &at->y;
+    gm_surface s = GM_CURVED && t->monotone
+                       ? gm_tangent_at(t, quadrant(q), curved, q->x, q->y, x, y)
+                       : gm_surface_at(t, x, y);
     const gm_real u = x->next ? c->x_low - x->low : 0;
     const gm_real v = y->next ? c->y_low - y->low : 0;
     s.c += s.cx * u + s.cy * v + s.cxy * u * v;
@@ -183,31 +190,39 @@ static gm_spot spot_again(const gm_axis *axis, int monotone, const gm_axis *firs
     return monotone ? gm_spot_near(axis, q) : gm_spot_on(axis, q);
 }
 
-static void fill(const gm_path *path, const place *q, gm_patch *c)
+static spots spots_of(const gm_table2 *t, const place *q)
 {
+    const int curved = GM_CURVED && t->monotone;
+    const spots s = {curved ? gm_spot_near(&t->x, q->x) : gm_spot_on(&t->x, q->x),
+                     curved ? gm_spot_near(&t->y, q->y) : gm_spot_on(&t->y, q->y)};
+    return s;
+}
+
+static void fill(const gm_drive *d, int p, const place *q, gm_patch *c)
+{
+    const gm_path *path = &d->map->path[p];
     const gm_table2 *n = &path->drag[q->i][q->j], *r = &path->reaction[q->i][q->j];
     const int curved = GM_CURVED && n->monotone, n_lines = path->n_lines;
-    const gm_spot x_n = curved ? gm_spot_near(&n->x, q->x) : gm_spot_on(&n->x, q->x);
-    const gm_spot y_n = curved ? gm_spot_near(&n->y, q->y) : gm_spot_on(&n->y, q->y);
-    const gm_spot x_r = spot_again(&r->x, curved, &n->x, &x_n, q->x);
-    const gm_spot y_r = spot_again(&r->y, curved, &n->y, &y_n, q->y);
+    const spots at_n = spots_of(n, q);
+    const spots at_r = {spot_again(&r->x, curved, &n->x, &at_n.x, q->x),
+                        spot_again(&r->y, curved, &n->y, &at_n.y, q->y)};
     c->key = (short)quadrant(q);
     c->outside = c->sides = 0;
     c->x_low = c->y_low = 0;
     c->x_high = c->y_high = GM_UNBOUNDED;
-    narrow(&x_n, &y_n, c);
-    narrow(&x_r, &y_r, c);
+    narrow(&at_n.x, &at_n.y, c);
+    narrow(&at_r.x, &at_r.y, c);
     for (int i = 0; i < n_lines; i++) {
         const gm_axis *axis = &path->lines[i].jump[q->j].x;
-        const gm_spot y = spot_again(axis, curved, &n->y, &y_n, q->y);
-        narrow(&x_n, &y, c);
+        const gm_spot y = spot_again(axis, curved, &n->y, &at_n.y, q->y);
+        narrow(&at_n.x, &y, c);
         add_bounds(path->lines[i].ratio, q, c);
     }
-    c->a = about_corner(n, q, &x_n, &y_n, c);
-    c->b = about_corner(r, q, &x_r, &y_r, c);
+    c->a = about_corner(n, gm_curved_cell(d->cache, p, 0), q, &at_n, c);
+    c->b = about_corner(r, gm_curved_cell(d->cache, p, 1), q, &at_r, c);
     for (int i = 0; i < n_lines; i++) {
         const gm_axis *axis = &path->lines[i].jump[q->j].x;
-        const gm_spot y = spot_again(axis, curved, &n->y, &y_n, q->y);
+        const gm_spot y = spot_again(axis, curved, &n->y, &at_n.y, q->y);
         add_line(&path->lines[i], q, &y, c);
     }
 }
@@ -222,7 +237,7 @@ void gm_drag_terms(const gm_drive *d, int p, gm_real sign_n, gm_real sign_o,
     gm_patch *c = &d->cache->path[p];
     gm_path_terms *terms = &t->path[p];
     if (!is_here(c, &q) || (GM_CURVED && path->drag[0][0].monotone)) {
-        fill(path, &q, c);
+        fill(d, p, &q, c);
     }
     const gm_surface *n = &c->a, *r = &c->b;
     const gm_real u = q.x - c->x_low, v = q.y - c->y_low;

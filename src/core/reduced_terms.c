@@ -46,10 +46,12 @@ static gm_real coupling_at(const gm_drive *d, const gm_solution *s, const gm_poi
     return t->coupling;
 }
 
-/* Number of a gear and a direction, from 1. */
+/* Number of a gear and a direction; drags have the numbers below. */
+enum { GM_LOAD_KEYS = 8 };
+
 static int gear_key(const gm_drive *d, int p, int dir)
 {
-    return 1 + 2 * d->gear_index[p] + dir;
+    return GM_LOAD_KEYS + 2 * d->gear_index[p] + dir;
 }
 
 static void load_terms(const gm_drive *d, int p, gm_real sign_o, const gm_point *at,
@@ -62,7 +64,7 @@ static void load_terms(const gm_drive *d, int p, gm_real sign_o, const gm_point 
     const gm_real y = sigma * at->tau_m[p];
     gm_patch *c = &d->cache->path[p];
     if (c->key != key || !gm_in_patch(c, x, y) || (GM_CURVED && table->monotone)) {
-        gm_fill_patch(table, key, x, y, c);
+        gm_fill_patch(table, key, gm_curved_cell(d->cache, p, 0), x, y, c);
     }
     const gm_real u = x - c->x_low, v = y - c->y_low, dx = c->a.cx + c->a.cxy * v;
     gm_path_terms *path = &t->path[p];
