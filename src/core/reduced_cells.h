@@ -31,8 +31,8 @@ gm_spot gm_spot_on(const gm_axis *axis, gm_real q);
 /** The same for a monotone table: where its tangent at q may be used. */
 gm_spot gm_spot_near(const gm_axis *axis, gm_real q);
 
-/** Fill a range of a table around (x, y). gm_fill_patch: surface a alone; curved: cell for
- *  a monotone table. */
+/** Fill a range of a table around (x, y). gm_fill_patch: surface a alone; curved: cell
+ *  for a monotone table. */
 void gm_fill_strip(const gm_table1 *t, int key, gm_real x, gm_strip *s);
 void gm_fill_patch(const gm_table2 *t, int key, gm_cell2 *curved, gm_real x, gm_real y,
                    gm_patch *c);
