@@ -86,6 +86,7 @@ gm_motion gm_load_motion(const gm_reduced_state *state)
     s.phi_o = state->phi_o;
     s.w_o = state->w_o;
     s.brake = state->brake;
+    s.rest_o = state->rest_o;
     s.path[0] = state->path[0];
     s.path[1] = state->path[1];
     s.work = state->work;
@@ -98,6 +99,7 @@ void gm_store_motion(const gm_motion *s, gm_reduced_state *state)
     state->phi_o = s->phi_o;
     state->w_o = s->w_o;
     state->brake = s->brake;
+    state->rest_o = s->rest_o;
     state->path[0] = s->path[0];
     state->path[1] = s->path[1];
     state->work = s->work;
@@ -150,7 +152,7 @@ int gm_reduced_start(const gm_reduced_map *map, const gm_reduced_inputs *inputs,
                      gm_real w_o, const gm_real *w, gm_reduced_state *state)
 {
     static const gm_reduced_state zero = {0};
-    gm_motion s = {0, 0, 0, {{0, 0, 0, 0, -1}, {0, 0, 0, 0, -1}}, 0, 0};
+    gm_motion s = {0, 0, 0, 0, {{0, 0, 0, 0, -1, 0}, {0, 0, 0, 0, -1, 0}}, 0, 0};
     int flags = 0;
     s.w_o = w_o;
     for (int p = 0; p < map->n_paths; p++) {

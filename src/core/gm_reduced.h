@@ -163,6 +163,8 @@ typedef struct gm_path_state {
                        w - ratio w_o in fidelity lash, and it is 0 in rigid [rad] */
     int mode;       /* gm_path_mode */
     int gear;       /* index of the gear engaged or being synchronised; -1 in neutral */
+    gm_real rest;   /* float: what rounding left over of the changes of w [rad/s]; double:
+                       0 */
 } gm_path_state;
 
 /** c + cx u + cy v + cxy u v + cyy v^2, u and v from the low ends of a range. */
@@ -207,8 +209,9 @@ typedef struct gm_reduced_cache {
 /** Speed of every independent shaft and the accounts; plain data without pointers. */
 typedef struct gm_reduced_state {
     gm_real phi_o, w_o;
-    gm_real brake; /* what losses took from the output's torque in the last step [N.m]:
+    gm_real brake;  /* what losses took from the output's torque in the last step [N.m]:
                       where the next one begins to look, so part of the state */
+    gm_real rest_o; /* as gm_path_state.rest, of w_o */
     gm_path_state path[GM_MAX_PATHS];
     gm_real work; /* done by the flanges on the gearset since the start [J] */
     gm_real

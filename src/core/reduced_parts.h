@@ -23,7 +23,7 @@ enum { GM_OUT = GM_MAX_PATHS, GM_SHAFTS = GM_MAX_PATHS + 1 };
 
 /* The state without its caches: what a step computes and then commits or drops. */
 typedef struct gm_motion {
-    gm_real phi_o, w_o, brake;
+    gm_real phi_o, w_o, brake, rest_o;
     gm_path_state path[GM_MAX_PATHS];
     gm_real work, loss_energy;
 } gm_motion;

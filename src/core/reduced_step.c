@@ -32,17 +32,31 @@ enum { GM_LOCATE = 16 }; /* solutions to locate one event */
 /* Events: shafts 0, 1, GM_OUT come to rest, then synchronisers 0, 1 close. */
 enum { GM_CLOSES = GM_SHAFTS, GM_EVENTS = GM_SHAFTS + GM_MAX_PATHS };
 
+/* Speed w after a change. In float a change may be no larger than the last digit of the
+ * speed, and to drop always the same part of it would be a torque: what rounding leaves
+ * over waits in *rest. At rest nothing waits. */
+static gm_real changed(gm_real w, gm_real change, gm_real *rest)
+{
+    if (!GM_REAL_IS_FLOAT) {
+        return w + change;
+    }
+    const gm_real x = change + (w != 0 ? *rest : 0), next = w + x, part = next - w;
+    *rest = (w - (next - part)) + (x - part);
+    return next;
+}
+
 static void advance(const gm_drive *d, const gm_solution *solution, gm_motion *s)
 {
     const gm_real h = d->h;
     const gm_point *at = &solution->point;
     gm_real power = d->tau[GM_OUT] * at->m[GM_OUT];
-    s->w_o = d->w[GM_OUT] + h * at->a[GM_OUT];
+    s->w_o = changed(d->w[GM_OUT], h * at->a[GM_OUT], &s->rest_o);
     s->brake = gm_brake(d, solution);
     s->phi_o += h * at->m[GM_OUT];
     for (int p = 0; p < d->n_paths; p++) {
         power += d->tau[p] * at->m[p];
-        s->path[p].w = d->own[p] ? d->w[p] + h * at->a[p] : d->ratio[p] * s->w_o;
+        s->path[p].w = d->own[p] ? changed(d->w[p], h * at->a[p], &s->path[p].rest)
+                                 : d->ratio[p] * s->w_o;
         s->path[p].phi += h * at->m[p];
         s->path[p].twist += d->elastic[p] ? h * gm_slip(d, at, p) : 0;
     }

@@ -59,7 +59,7 @@ static void fill(gm_run *run, bool yes)
     for (int p = 0; p < GM_MAX_PATHS; p++) {
         run->component.path_tau_rate[p] = number();
         run->component.state.path[p] =
-            (gm_path_state){number(), number(), number(), count(), count()};
+            (gm_path_state){number(), number(), number(), count(), count(), 0};
         run->gear_reported[p] = yes;
         run->reported_gear[p] = count();
     }
