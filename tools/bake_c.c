@@ -8,7 +8,7 @@
 #include <string.h>
 
 #define USUAL_STEP 1e-3 /* s */
-#define USUAL_THIN 2e-3
+#define USUAL_THIN 3e-3
 
 static bool is_one_of(const char *option, const char *given, const char *first,
                       const char *second)

@@ -42,7 +42,7 @@ GM_NODISCARD gm_status gm_bake_c_run(const char *path, const char *interpolation
     {.kind = GM_OPTION_QUANTITY, .name = "thin", .value = "PART", .unit = "",            \
      .low = 0, .high = 0.1, .offset = GM_BAKE_C_OPTION(type, thin),                      \
      .help = "with --format c, leave out nodes that the others give within this part "   \
-             "of the largest loss torque at the same flange; default: 0.002"},           \
+             "of the largest loss torque at the same flange; default: 0.003"},           \
     {.kind = GM_OPTION_QUANTITY, .name = "step", .value = "TIME", .unit = "s",           \
      .low = 1e-6, .high = 1, .offset = GM_BAKE_C_OPTION(type, step),                     \
      .help = "with --format c, the step that the controller takes (others can be "       \

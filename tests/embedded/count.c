@@ -11,7 +11,7 @@
  * largest the inputs that caused it.
  */
 #include "counter.h"
-#include "gm_reduced.h"
+#include "gm_gearset.h"
 #include "gm_tables.h"
 
 #include <stdio.h>
@@ -72,11 +72,27 @@ static void print_tally(const char *fidelity, const char *name)
     memset(&counts, 0, sizeof counts);
 }
 
-static unsigned counted_step(const gm_reduced_params *params, const gm_reduced_inputs *in,
-                             gm_reduced_state *state)
+static gm_gearset begin(const gm_reduced_params *params, const gm_reduced_inputs *in,
+                        gm_real w_o, const gm_real *w)
 {
+    gm_gearset g;
+    gm_gearset_start start;
+    gm_gearset_defaults(&gm_tables_map, &start);
+    start.params = *params;
+    start.w_o = w_o;
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        start.gear[p] = in->gear[p];
+        start.w[p] = w[p];
+    }
+    (void)gm_gearset_init(&gm_tables_map, &start, &g);
+    return g;
+}
+
+static unsigned counted_step(const gm_reduced_inputs *in, gm_gearset *g)
+{
+    gm_gearset_set(in, g);
     const uint32_t start = counter_start();
-    (void)gm_reduced_step(&gm_tables_map, params, in, STEP, state);
+    (void)gm_gearset_step(&gm_tables_map, g, STEP);
     return (unsigned)(counter_since(start) - overhead);
 }
 
@@ -92,10 +108,9 @@ static int gear_near(int p, int position)
  * damper, one path drives, the other idles, is preselected or synchronises. */
 static void drive(const gm_reduced_params *params)
 {
-    gm_reduced_state state;
     gm_reduced_inputs in = {0};
     gm_real w[GM_MAX_PATHS] = {80, 90}, car = 0;
-    gm_reduced_start(&gm_tables_map, &in, 0, w, &state);
+    gm_gearset g = begin(params, &in, 0, w);
     for (int k = 0; k < 60000; k++) {
         const int phase = k / 1500, active = phase & 1;
         const gm_real pedal = (phase / 4) % 5 == 4 ? -60 : (phase % 7 == 3 ? -15 : 120);
@@ -103,13 +118,13 @@ static void drive(const gm_reduced_params *params)
             const int selected = p == active || k % 1500 > 700;
             in.gear[p] = gear_near(p, selected ? (phase / 2 + p) % 5 : -1);
             in.path_tau[p] = p == active && k % 1500 > 300 ? pedal : 0;
-            if (state.path[p].mode == GM_PATH_NEUTRAL) {
-                in.path_tau[p] = (80 - state.path[p].w) / 10;
+            if (g.state.path[p].mode == GM_PATH_NEUTRAL) {
+                in.path_tau[p] = (80 - g.state.path[p].w) / 10;
             }
         }
-        in.output_tau = (car - state.w_o) * 100;
+        in.output_tau = (car - g.state.w_o) * 100;
         car += STEP * (-in.output_tau - (car > 0 ? 100 : car < 0 ? -100 : 0)) / 200;
-        note(counted_step(params, &in, &state));
+        note(counted_step(&in, &g));
     }
 }
 
@@ -141,16 +156,18 @@ static void shake(gm_reduced_inputs *in)
 
 static void chaos(const gm_reduced_params *params, int n)
 {
-    gm_reduced_state state;
     gm_reduced_inputs in = {0};
+    gm_real w[GM_MAX_PATHS] = {0, 0};
+    gm_gearset g = begin(params, &in, 0, w);
     for (int k = 0; k < n; k++) {
         if (k % 500 == 0) {
-            gm_real w[GM_MAX_PATHS] = {between(-600, 600), between(-600, 600)};
+            w[0] = between(-600, 600);
+            w[1] = between(-600, 600);
             memset(&in, 0, sizeof in);
-            gm_reduced_start(&gm_tables_map, &in, between(-80, 80), w, &state);
+            g = begin(params, &in, between(-80, 80), w);
         }
         shake(&in);
-        note(counted_step(params, &in, &state));
+        note(counted_step(&in, &g));
     }
 }
 
@@ -166,25 +183,21 @@ typedef struct situation {
 
 static unsigned cost_of(const gm_reduced_params *params, const situation *s)
 {
-    gm_reduced_state state;
-    gm_reduced_params used = *params;
-    gm_reduced_inputs in = {0};
-    in.gear[0] = s->from[0];
-    in.gear[1] = s->from[1];
-    gm_reduced_start(&gm_tables_map, &in, s->w_o, s->w, &state);
-    state.brake = s->brake;
+    gm_reduced_inputs in = {.gear = {s->from[0], s->from[1]}};
+    gm_gearset g = begin(params, &in, s->w_o, s->w);
+    g.state.brake = s->brake;
     in.output_tau = s->tau_o;
     for (int p = 0; p < GM_MAX_PATHS; p++) {
-        if (params->fidelity == GM_LASH && state.path[p].mode == GM_PATH_ENGAGED) {
-            state.path[p].twist = s->twist[p];
-            state.path[p].w = s->w[p];
+        if (params->fidelity == GM_LASH && g.state.path[p].mode == GM_PATH_ENGAGED) {
+            g.state.path[p].twist = s->twist[p];
+            g.state.path[p].w = s->w[p];
         }
         in.path_tau[p] = s->tau[p];
         in.path_tau_rate[p] = s->rate[p];
         in.gear[p] = s->to[p];
-        used.sync_torque[p] = s->sync[p];
+        g.params.sync_torque[p] = s->sync[p];
     }
-    return counted_step(&used, &in, &state);
+    return counted_step(&in, &g);
 }
 
 static gm_real ratio_of(int p, int number)
@@ -236,6 +249,9 @@ static void mutate(situation *s)
         } else {
             *number[i] *= 1 + between(-1, 1) * (one_of(2) ? GM_NUM(0.3) : GM_NUM(0.01));
         }
+    }
+    for (int p = 0; p < GM_MAX_PATHS; p++) { /* a capacity that a cone has, or none */
+        s->sync[p] = s->sync[p] > 500 ? GM_NUM(1e30) : s->sync[p];
     }
 }
 
