@@ -10,6 +10,7 @@
 #include "verified.h"
 
 #include <errno.h>
+#include <math.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -100,7 +101,8 @@ static gm_cycle_settings drive_of(const arguments *a)
     return (gm_cycle_settings){.cycle = a->cycle,
                                .vehicle = a->vehicle,
                                .fidelity = GM_CYCLE_BOTH,
-                               .tolerance = GM_CYCLE_TOLERANCE};
+                               .tolerance = GM_CYCLE_TOLERANCE,
+                               .communication_step = (double)NAN};
 }
 
 /* Nothing is begun whose result could not be kept. */

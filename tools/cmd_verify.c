@@ -46,6 +46,10 @@ static const gm_option options[] = {
      .low = 1e-10, .high = 1e-2, .fallback = "1e-6",
      .offset = offsetof(arguments, drive.tolerance),
      .help = "with --cycle: relative error of a step of the solver"},
+    {.kind = GM_OPTION_QUANTITY, .name = "communication-step", .value = "TIME",
+     .unit = "s", .low = 1e-6, .high = 0.1,
+     .offset = offsetof(arguments, drive.communication_step),
+     .help = "with --cycle: drive in Co-Simulation too, in steps of this length (1ms)"},
     {.kind = GM_OPTION_FLAG, .name = "summary", .offset = offsetof(arguments, summary),
      .help = "with --cycle: print the small table alone, without gears, shifts and the "
              "places of the largest differences"},
@@ -116,6 +120,20 @@ static void note_another_description(const arguments *a, const gm_measured *meas
             a->fmu, a->description);
 }
 
+/* Longer steps run too, but do not follow all vibrations. */
+static void note_long_steps(const arguments *a, const gm_cycle_stage *cycle)
+{
+    for (int i = 0; i < cycle->n_runs; i++) {
+        const gm_cycle_run *run = &cycle->run[i];
+        if (run->communication_step > run->recommended_step)
+            fprintf(stderr,
+                    "gearmap: note: %s recommends steps of %.4g ms at most in fidelity "
+                    "%s, not %.4g ms\n",
+                    a->fmu, 1e3 * run->recommended_step, gm_fidelity_name(run->fidelity),
+                    1e3 * run->communication_step);
+    }
+}
+
 static gm_status compare(const arguments *a, gm_fmu *fmu, const gm_gearset_file *file,
                          comparison *c, gm_error *error)
 {
@@ -143,6 +161,7 @@ static gm_status verify_fmu(const arguments *a, gm_fmu *fmu, gm_error *error)
     status = compare(a, fmu, &file, &c, error);
     if (status == GM_OK) {
         note_another_description(a, &c.measured);
+        note_long_steps(a, &c.cycle);
         status = gm_command_print(&form, a->json, &c, error);
     }
     gm_stage_cycle_clear(&c.cycle);
@@ -174,6 +193,8 @@ static const char *usage_problem(const arguments *a)
         return "--trace needs --cycle";
     if (a->summary && !a->drive.cycle)
         return "--summary needs --cycle";
+    if (!isnan(a->drive.communication_step) && !a->drive.cycle)
+        return "--communication-step needs --cycle";
     if (a->drive.vehicle && !a->drive.cycle)
         return "--vehicle needs --cycle";
     if (strcmp(fidelity, "rigid") != 0 && strcmp(fidelity, "lash") != 0 &&

@@ -5,6 +5,7 @@
 #include "cycle_stage.h"
 
 #include <math.h>
+#include <string.h>
 
 #define KM_H 3.6 /* per m/s */
 #define GAP "    "
@@ -30,13 +31,14 @@ static double input_difference(const gm_cycle_stage *stage, const gm_comparison 
 
 /* ---- JSON ---- */
 
-static void record_json(const gm_cycle_stage *stage, const gm_record *r, gm_json *json)
+static void record_json(const gm_cycle_stage *stage, const gm_record *r,
+                        double gearset_time, gm_json *json)
 {
     gm_json_number(json, "cpu_s", r->work.cpu);
     gm_json_number(json, "real_time_factor", real_time_factor(stage, r));
     gm_json_integer(json, "steps", r->work.steps);
     gm_json_integer(json, "restarts", r->work.restarts);
-    gm_json_number(json, "gearset_s", r->gearset_time);
+    gm_json_number(json, "gearset_s", gearset_time);
     gm_json_number(json, "energy_balance_relative", balance(r));
 }
 
@@ -123,7 +125,11 @@ static void reduced_json(const gm_cycle_stage *stage, const gm_cycle_run *run,
 {
     gm_json_text(json, "fidelity", gm_fidelity_name(run->fidelity));
     gm_json_number(json, "communication_step_s", run->communication_step);
-    record_json(stage, run->record, json);
+    gm_json_number(json, "recommended_step_s", run->recommended_step);
+    /* in Co-Simulation it is spent in the steps, which are not timed apart */
+    record_json(stage, run->record,
+                isnan(run->communication_step) ? run->record->gearset_time : (double)NAN,
+                json);
 }
 
 static void figures_json(const gm_cycle_stage *stage, const gm_cycle_run *run,
@@ -173,7 +179,7 @@ void gm_cycle_stage_json(const gm_cycle_stage *stage, gm_json *json)
                  *stage->vehicle_sha256 ? stage->vehicle_sha256 : NULL);
     gm_json_number(json, "tolerance", stage->tolerance);
     gm_json_object(json, "detailed");
-    record_json(stage, stage->detailed, json);
+    record_json(stage, stage->detailed, stage->detailed->gearset_time, json);
     gm_json_end(json);
     if (stage->n_runs == 1)
         one_json(stage, &stage->run[0], json);
@@ -220,12 +226,35 @@ static double energy_lost(const gm_cycle_stage *stage, const gm_cycle_run *run)
     return 100.0 * run->comparison.loss_relative;
 }
 
+/* Of a run's column. */
+static int width_of(const gm_cycle_run *run)
+{
+    char name[GM_RUN_NAME];
+    gm_cycle_run_name(run, name);
+    const int length = (int)strlen(name);
+    return length < 12 ? 12 : length + 1;
+}
+
+static void print_heading(const gm_cycle_run *run, FILE *out)
+{
+    char name[GM_RUN_NAME];
+    gm_cycle_run_name(run, name);
+    fprintf(out, " %*s", width_of(run), name);
+}
+
+static void print_title(const gm_cycle_run *run, FILE *out)
+{
+    char name[GM_RUN_NAME];
+    gm_cycle_run_name(run, name);
+    fprintf(out, "\n%s\n", name);
+}
+
 static void line(const gm_cycle_stage *stage, const char *what, const char *unit,
                  figure of, FILE *out)
 {
     fprintf(out, GAP "%-38s %-6s %12s", what, unit, "");
     for (int i = 0; i < stage->n_runs; i++)
-        fprintf(out, " %12.4g", of(stage, &stage->run[i]));
+        fprintf(out, " %*.4g", width_of(&stage->run[i]), of(stage, &stage->run[i]));
     fputc('\n', out);
 }
 
@@ -234,11 +263,12 @@ static void print_speed(const gm_cycle_stage *stage, FILE *out)
     fprintf(out, GAP "%-38s %-6s %12.4g", "processor time", "s",
             stage->detailed->work.cpu);
     for (int i = 0; i < stage->n_runs; i++)
-        fprintf(out, " %12.4g", stage->run[i].record->work.cpu);
+        fprintf(out, " %*.4g", width_of(&stage->run[i]), stage->run[i].record->work.cpu);
     fprintf(out, "\n" GAP "%-38s %-6s %12.4g", "faster than real time", "times",
             real_time_factor(stage, stage->detailed));
     for (int i = 0; i < stage->n_runs; i++)
-        fprintf(out, " %12.4g", real_time_factor(stage, stage->run[i].record));
+        fprintf(out, " %*.4g", width_of(&stage->run[i]),
+                real_time_factor(stage, stage->run[i].record));
     fputc('\n', out);
 }
 
@@ -248,7 +278,7 @@ void gm_cycle_stage_print_table(const gm_cycle_stage *stage, FILE *out)
             stage->cycle->name, gm_cycle_duration(stage->cycle));
     fprintf(out, GAP "%-45s %12s", "", "detailed");
     for (int i = 0; i < stage->n_runs; i++)
-        fprintf(out, " %12s", gm_fidelity_name(stage->run[i].fidelity));
+        print_heading(&stage->run[i], out);
     fputc('\n', out);
     print_speed(stage, out);
     line(stage, "processor time saved", "%", saved, out);
@@ -301,7 +331,7 @@ void gm_cycle_stage_print(const gm_cycle_stage *stage, FILE *out)
 {
     gm_cycle_stage_print_table(stage, out);
     for (int i = 0; i < stage->n_runs; i++) {
-        fprintf(out, "\n%s\n", gm_fidelity_name(stage->run[i].fidelity));
+        print_title(&stage->run[i], out);
         print_gears(&stage->run[i], out);
         print_shifts(&stage->run[i].comparison, out);
         print_worst(&stage->run[i].comparison, out);

@@ -2,6 +2,7 @@
 #include "cycle_stage.h"
 
 #include "base/sha256.h"
+#include "plant/gm_fmu_steps.h"
 #include "progress.h"
 
 #include <math.h>
@@ -11,12 +12,23 @@
 #define SHOWN_EVERY 0.005 /* of the cycle, of the progress bar */
 
 /* Without meshes and springs inside there is no vibration that forbids order three, and
- * it takes half the steps. With them it takes more steps than order two. */
+ * it takes half the steps. With them, and with the kinks of Co-Simulation, it takes more
+ * steps than order two. */
 #define ORDER_RIGID 3
 
 const char *gm_fidelity_name(gm_fmu_fidelity fidelity)
 {
     return fidelity == GM_FMU_RIGID ? "rigid" : "lash";
+}
+
+void gm_cycle_run_name(const gm_cycle_run *run, char name[GM_RUN_NAME])
+{
+    const char *fidelity = gm_fidelity_name(run->fidelity);
+    if (isnan(run->communication_step))
+        (void)snprintf(name, GM_RUN_NAME, "%s", fidelity);
+    else
+        (void)snprintf(name, GM_RUN_NAME, "%s (CS, %.4g ms)", fidelity,
+                       1e3 * run->communication_step);
 }
 
 void gm_stage_cycle_clear(gm_cycle_stage *stage)
@@ -96,33 +108,82 @@ static gm_status drive(const gm_trip_parts *parts, double tolerance, int order_m
     return status;
 }
 
-static gm_status drive_component(const gm_trip_parts *common, const char *fmu,
-                                 gm_fmu_fidelity fidelity, gm_cycle_stage *stage,
-                                 gm_error *error)
+static int order_of(const gm_cycle_run *run)
+{
+    return run->fidelity == GM_FMU_RIGID && isnan(run->communication_step) ? ORDER_RIGID
+                                                                           : 0;
+}
+
+/* Drive with the gearset of the plant and compare; the run has its kind already. */
+static gm_status drive_run(const gm_trip_parts *common, const gm_dynamics *gearset,
+                           const char *fmu, gm_cycle_stage *stage, gm_error *error)
+{
+    gm_cycle_run *run = &stage->run[stage->n_runs];
+    gm_trip_parts parts = *common;
+    char name[GM_RUN_NAME];
+    parts.gearset = gearset;
+    gm_cycle_run_name(run, name);
+    if (gearset->n_paths != stage->n_paths)
+        return gm_fail(error, GM_ERR_MODEL, "%s: has %d input flanges, not %d", fmu,
+                       gearset->n_paths, stage->n_paths);
+    gm_status status =
+        drive(&parts, stage->tolerance, order_of(run), name, &run->record, error);
+    if (status != GM_OK)
+        return status;
+    stage->n_runs++;
+    return gm_compare(stage->detailed, run->record, stage->plan, &run->comparison, error);
+}
+
+static gm_status drive_exchange(const gm_trip_parts *common, const char *fmu,
+                                gm_fmu_fidelity fidelity, gm_cycle_stage *stage,
+                                gm_error *error)
 {
     gm_fmu_plant *plant = NULL;
-    gm_cycle_run *run = &stage->run[stage->n_runs];
     gm_status status = gm_fmu_plant_create(fmu, fidelity, &plant, error);
     if (status != GM_OK)
         return status;
-    gm_dynamics dynamics = gm_fmu_plant_dynamics(plant);
-    gm_trip_parts parts = *common;
-    parts.gearset = &dynamics;
-    run->fidelity = fidelity;
-    run->communication_step = (double)NAN;
-    if (dynamics.n_paths != stage->n_paths)
-        status = gm_fail(error, GM_ERR_MODEL, "%s: has %d input flanges, not %d", fmu,
-                         dynamics.n_paths, stage->n_paths);
-    if (status == GM_OK)
-        status =
-            drive(&parts, stage->tolerance, fidelity == GM_FMU_RIGID ? ORDER_RIGID : 0,
-                  gm_fidelity_name(fidelity), &run->record, error);
-    if (status == GM_OK) {
-        stage->n_runs++;
-        status = gm_compare(stage->detailed, run->record, stage->plan, &run->comparison,
-                            error);
-    }
+    const gm_dynamics dynamics = gm_fmu_plant_dynamics(plant);
+    stage->run[stage->n_runs] = (gm_cycle_run){.fidelity = fidelity,
+                                               .communication_step = (double)NAN,
+                                               .recommended_step = (double)NAN};
+    status = drive_run(common, &dynamics, fmu, stage, error);
     gm_fmu_plant_destroy(plant);
+    return status;
+}
+
+/* Over the gears of the cycle's plan, each with its path alone. */
+static gm_status shortest_step(const gm_fmu_steps_plant *plant,
+                               const gm_transmission *transmission, double *shortest,
+                               gm_error *error)
+{
+    gm_status status = GM_OK;
+    *shortest = (double)INFINITY;
+    for (int i = 0; i < transmission->n_gears && status == GM_OK; i++) {
+        int gear[GM_MAX_INPUT_PATHS] = {0};
+        double step = 0.0;
+        gear[transmission->gear[i].path] = transmission->gear[i].number;
+        status = gm_fmu_steps_recommended(plant, gear, &step, error);
+        *shortest = fmin(*shortest, step);
+    }
+    return status;
+}
+
+static gm_status drive_in_steps(const gm_trip_parts *common, const char *fmu,
+                                const gm_transmission *transmission,
+                                gm_fmu_fidelity fidelity, double step,
+                                gm_cycle_stage *stage, gm_error *error)
+{
+    gm_fmu_steps_plant *plant = NULL;
+    gm_cycle_run *run = &stage->run[stage->n_runs];
+    gm_status status = gm_fmu_steps_create(fmu, fidelity, step, &plant, error);
+    if (status != GM_OK)
+        return status;
+    const gm_dynamics dynamics = gm_fmu_steps_dynamics(plant);
+    *run = (gm_cycle_run){.fidelity = fidelity, .communication_step = step};
+    status = shortest_step(plant, transmission, &run->recommended_step, error);
+    if (status == GM_OK)
+        status = drive_run(common, &dynamics, fmu, stage, error);
+    gm_fmu_steps_destroy(plant);
     return status;
 }
 
@@ -132,24 +193,42 @@ static int wants(const gm_cycle_settings *settings, gm_fmu_fidelity fidelity)
            strcmp(settings->fidelity, gm_fidelity_name(fidelity)) == 0;
 }
 
+static gm_status drive_components(const gm_trip_parts *parts, const char *fmu,
+                                  const gm_transmission *transmission,
+                                  const gm_cycle_settings *settings,
+                                  gm_cycle_stage *stage, gm_error *error)
+{
+    static const gm_fmu_fidelity fidelities[] = {GM_FMU_RIGID, GM_FMU_LASH};
+    const double step = settings->communication_step;
+    gm_status status = GM_OK;
+    for (int i = 0; i < 2 && status == GM_OK; i++)
+        if (wants(settings, fidelities[i]))
+            status = drive_exchange(parts, fmu, fidelities[i], stage, error);
+    for (int i = 0; i < 2 && status == GM_OK && !isnan(step); i++)
+        if (wants(settings, fidelities[i]))
+            status = drive_in_steps(parts, fmu, transmission, fidelities[i], step, stage,
+                                    error);
+    return status;
+}
+
 static gm_status drive_all(const gm_gearset_file *file, const char *fmu,
-                           const gm_vehicle *vehicle, double forward,
-                           const gm_cycle_settings *settings, gm_cycle_stage *stage,
-                           gm_error *error)
+                           const gm_vehicle *vehicle, const gm_cycle_settings *settings,
+                           gm_cycle_stage *stage, gm_error *error)
 {
     gm_dynamics detailed = gm_builtin_dynamics(file->gearset);
-    const gm_trip_parts parts = {.vehicle = vehicle,
-                                 .cycle = stage->cycle,
-                                 .plan = stage->plan,
-                                 .gearset = &detailed,
-                                 .forward = forward};
-    gm_status status =
-        drive(&parts, stage->tolerance, 0, "detailed", &stage->detailed, error);
-    if (status == GM_OK && wants(settings, GM_FMU_RIGID))
-        status = drive_component(&parts, fmu, GM_FMU_RIGID, stage, error);
-    if (status == GM_OK && wants(settings, GM_FMU_LASH))
-        status = drive_component(&parts, fmu, GM_FMU_LASH, stage, error);
-    return status;
+    gm_transmission transmission;
+    gm_trip_parts parts = {
+        .vehicle = vehicle, .cycle = stage->cycle, .gearset = &detailed, .forward = 1.0};
+    gm_status status = list_gears(file->plant, &transmission, &parts.forward, error);
+    if (status == GM_OK)
+        status = gm_gear_plan_create(stage->cycle, vehicle, &transmission, &stage->plan,
+                                     error);
+    parts.plan = stage->plan;
+    if (status == GM_OK)
+        status = drive(&parts, stage->tolerance, 0, "detailed", &stage->detailed, error);
+    return status == GM_OK
+               ? drive_components(&parts, fmu, &transmission, settings, stage, error)
+               : status;
 }
 
 /* A file or one of the built-in ones. */
@@ -185,8 +264,6 @@ gm_status gm_stage_cycle(const gm_gearset_file *file, const char *fmu,
                          gm_error *error)
 {
     gm_vehicle vehicle;
-    gm_transmission transmission;
-    double forward = 1.0;
     memset(stage, 0, sizeof *stage);
     stage->tolerance = settings->tolerance;
     stage->n_paths = file->plant->info.n_paths;
@@ -196,12 +273,7 @@ gm_status gm_stage_cycle(const gm_gearset_file *file, const char *fmu,
     if (status == GM_OK)
         status = open_vehicle(settings->vehicle, &vehicle, stage->vehicle_sha256, error);
     if (status == GM_OK)
-        status = list_gears(file->plant, &transmission, &forward, error);
-    if (status == GM_OK)
-        status = gm_gear_plan_create(stage->cycle, &vehicle, &transmission, &stage->plan,
-                                     error);
-    if (status == GM_OK)
-        status = drive_all(file, fmu, &vehicle, forward, settings, stage, error);
+        status = drive_all(file, fmu, &vehicle, settings, stage, error);
     if (status != GM_OK)
         gm_stage_cycle_clear(stage);
     return status;

@@ -11,7 +11,7 @@
 #include "plant/gm_fmu_motion.h"
 #include "vehicle/gm_compare.h"
 
-enum { GM_CYCLE_FIDELITIES = 2 };
+enum { GM_CYCLE_RUNS = 4 }; /* two fidelities, in two ways */
 #define GM_CYCLE_BOTH "both"
 #define GM_CYCLE_TOLERANCE 1e-6
 
@@ -20,13 +20,15 @@ typedef struct gm_cycle_settings {
     const char *vehicle;  /* file; NULL: the reference */
     const char *fidelity; /* "rigid", "lash" or "both" */
     double tolerance;     /* relative error of a step */
-    const char *trace;    /* file of the drives over time; NULL: none */
+    double communication_step; /* s: in Co-Simulation, too; NAN: not */
+    const char *trace;         /* file of the drives over time; NULL: none */
 } gm_cycle_settings;
 
 /** One drive with the component. */
 typedef struct gm_cycle_run {
     gm_fmu_fidelity fidelity;
     double communication_step; /* s, of Co-Simulation; NAN: Model Exchange */
+    double recommended_step;   /* s, the shortest of all gears; NAN: Model Exchange */
     gm_record *record;
     gm_comparison comparison;
 } gm_cycle_run;
@@ -40,7 +42,7 @@ typedef struct gm_cycle_stage {
     double tolerance;
     gm_record *detailed;
     int n_runs;
-    gm_cycle_run run[GM_CYCLE_FIDELITIES];
+    gm_cycle_run run[GM_CYCLE_RUNS];
 } gm_cycle_stage;
 
 /** Are cycle and vehicle there and in order? Errors of reading them. */
@@ -67,5 +69,9 @@ GM_NODISCARD gm_status gm_cycle_stage_trace(const gm_cycle_stage *stage, const c
 
 /** "rigid" or "lash". */
 const char *gm_fidelity_name(gm_fmu_fidelity fidelity);
+
+enum { GM_RUN_NAME = 32 };
+/** What people call a run: "lash", or in Co-Simulation "lash (CS, 1 ms)". */
+void gm_cycle_run_name(const gm_cycle_run *run, char name[GM_RUN_NAME]);
 
 #endif

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
  * The drives of a comparison over time, one row a sample: the cycle, then the same
- * columns for the detailed gearset and for each fidelity of the component.
+ * columns for the detailed gearset and for each run of the component ("rigid", "lash"; in
+ * Co-Simulation "rigid_cs", "lash_cs").
  */
 #include "cycle_stage.h"
 
 #include "files.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -24,6 +26,15 @@ static void print_names(const gm_cycle_stage *stage, const char *run, FILE *out)
                 run, stage->path_name[p]);
     fprintf(out, ",%s.output.speed_rpm,%s.output.tau_Nm,%s.loss_energy_J,%s.cpu_s", run,
             run, run, run);
+}
+
+static void print_run_names(const gm_cycle_stage *stage, const gm_cycle_run *run,
+                            FILE *out)
+{
+    char name[GM_RUN_NAME];
+    (void)snprintf(name, sizeof name, "%s%s", gm_fidelity_name(run->fidelity),
+                   isnan(run->communication_step) ? "" : "_cs");
+    print_names(stage, name, out);
 }
 
 static void print_values(const gm_cycle_stage *stage, const gm_record *r, int i,
@@ -44,7 +55,7 @@ static void print_rows(const gm_cycle_stage *stage, FILE *out)
     fprintf(out, "time_s,cycle_speed_km_h");
     print_names(stage, "detailed", out);
     for (int k = 0; k < stage->n_runs; k++)
-        print_names(stage, gm_fidelity_name(stage->run[k].fidelity), out);
+        print_run_names(stage, &stage->run[k], out);
     fputc('\n', out);
     for (int i = 0; i < stage->detailed->n; i++) {
         const gm_sample *sample = &stage->detailed->sample[i];

@@ -15,7 +15,7 @@
 #define NOMINAL_ENERGY 1e4  /* J */
 enum { EVENT_ROUNDS = 10 };
 
-static const char *flange_name(int n_paths, int flange)
+const char *gm_fmu_flange_name(int n_paths, int flange)
 {
     static const char *const two[] = {"output", "odd", "even"};
     static const char *const one[] = {"output", "input"};
@@ -24,8 +24,8 @@ static const char *flange_name(int n_paths, int flange)
 
 /* ---- variables ---- */
 
-static gm_status find(const gm_fmu *fmu, const char *flange, const char *name,
-                      unsigned *reference, gm_error *error)
+gm_status gm_fmu_find_at(const gm_fmu *fmu, const char *flange, const char *name,
+                         unsigned *reference, gm_error *error)
 {
     char full[64];
     (void)snprintf(full, sizeof full, "%s.%s", flange, name);
@@ -34,15 +34,15 @@ static gm_status find(const gm_fmu *fmu, const char *flange, const char *name,
 
 static gm_status find_flange(gm_fmu_motion *m, int f, gm_error *error)
 {
-    const char *flange = flange_name(m->plant->n_paths, f);
+    const char *flange = gm_fmu_flange_name(m->plant->n_paths, f);
     char speed[64];
-    gm_status status = find(m->fmu, flange, "tau", &m->tau[f], error);
+    gm_status status = gm_fmu_find_at(m->fmu, flange, "tau", &m->tau[f], error);
     if (status == GM_OK)
-        status = find(m->fmu, flange, "a", &m->acceleration[f], error);
+        status = gm_fmu_find_at(m->fmu, flange, "a", &m->acceleration[f], error);
     if (status == GM_OK && f > 0)
-        status = find(m->fmu, flange, "gear", &m->gear[f - 1], error);
+        status = gm_fmu_find_at(m->fmu, flange, "gear", &m->gear[f - 1], error);
     if (status == GM_OK && f > 0)
-        status = find(m->fmu, flange, "state", &m->state[f - 1], error);
+        status = gm_fmu_find_at(m->fmu, flange, "state", &m->state[f - 1], error);
     (void)snprintf(speed, sizeof speed, "%s.w", flange);
     m->speed[f] = -1;
     for (int i = 0; i < m->n; i++)
@@ -183,7 +183,7 @@ static gm_status set_start(gm_fmu_motion *m, const char *flange, double speed,
                            gm_error *error)
 {
     unsigned reference = 0;
-    gm_status status = find(m->fmu, flange, "w_start", &reference, error);
+    gm_status status = gm_fmu_find_at(m->fmu, flange, "w_start", &reference, error);
     return status == GM_OK ? gm_fmu_set_real(m->fmu, reference, speed, error) : status;
 }
 
@@ -205,7 +205,7 @@ static gm_status start(void *user, const gm_motion_input *input, const double *s
     if (status == GM_OK)
         status = set_fidelity(m, error);
     for (int f = 0; f <= m->plant->n_paths && status == GM_OK; f++)
-        status = set_start(m, flange_name(m->plant->n_paths, f), speed[f], error);
+        status = set_start(m, gm_fmu_flange_name(m->plant->n_paths, f), speed[f], error);
     if (status == GM_OK)
         status = gm_fmu_initialise(m->fmu, error);
     if (status == GM_OK)

@@ -32,6 +32,14 @@ typedef struct gm_fmu_motion {
     fmi2ValueReference *state_reference, *rate_reference; /* [n] */
 } gm_fmu_motion;
 
+/** "output", "input" or "odd", "even". */
+const char *gm_fmu_flange_name(int n_paths, int flange);
+
+/** gm_fmu_find of "<flange>.<name>". */
+GM_NODISCARD gm_status gm_fmu_find_at(const gm_fmu *fmu, const char *flange,
+                                      const char *name, unsigned *reference,
+                                      gm_error *error);
+
 /** Hand torques and states over. Non-zero: the FMU refuses them. */
 int gm_fmu_motion_put(gm_fmu_motion *motion, const gm_motion_input *input,
                       const double *x);

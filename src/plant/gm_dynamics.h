@@ -58,6 +58,9 @@ typedef struct gm_dynamics_class {
     /* Event functions g[n_events]: the solver stops where one changes its sign. */
     int (*n_events)(const void *motion);
     int (*events)(void *motion, const gm_motion_input *input, const double *x, double *g);
+    /* When the solver is to stop next in any case, t being the present time [s]; NULL:
+       the plant has no times of its own. */
+    double (*next)(const void *motion, double t);
     /* Called at such a stop, after a change of commanded gears, and after every accepted
        step: bring modes to what holds from now on, x may jump. *changed: the solver
        restarts. */

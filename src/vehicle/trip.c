@@ -121,7 +121,10 @@ static gm_status enter(void *user, double t, double *x, gm_transient_piece *piec
     piece->end =
         fmin(gm_gear_plan_next(trip->parts.plan, t), gm_cycle_next(trip->parts.cycle, t));
     piece->work = 0.0;
-    return handle(trip, t, x, &piece->restart, error);
+    gm_status status = handle(trip, t, x, &piece->restart, error);
+    if (status == GM_OK && trip->is->next)
+        piece->end = fmin(piece->end, trip->is->next(trip->motion, t));
+    return status;
 }
 
 /* ---- accounts ---- */
