@@ -14,8 +14,8 @@
  * made up over the next step, which keeps them and all torques around continuous.
  *
  * So what a flange does under its own torque is solved with the system around it. A
- * master that holds speeds over the step is stable only for h < 2 J / c beside a clutch of
- * damping c, some 0.01 ms; this one is not limited by it (compare Sicklinger et al.,
+ * master that holds speeds over the step is stable only for h < 2 J / c beside a clutch
+ * of damping c, some 0.01 ms; this one is not limited by it (compare Sicklinger et al.,
  * "Interface Jacobian-based co-simulation", Int. J. Numer. Meth. Engng 98 (2014)
  * 418-444, whose Jacobian is here its diagonal). A commanded gear reaches the FMU with
  * the step that begins at or after the command.
