@@ -137,8 +137,9 @@ static void sizes(const gm_c_folder *f, gm_buffer *page)
     gm_buffer_text(
         page,
         "\nMeasured and checked by the project's tests with the 7-speed dual-clutch "
-        "example in float, gcc 12 -O2, on an emulated Cortex-M4F, at most so many instructions of "
-        "gm_gearset_step:\n\n| fidelity | median of a drive | largest in a drive | "
+        "example in float, gcc 12 -O2, on an emulated Cortex-M4F, at most so many "
+        "instructions of gm_gearset_step:\n\n| fidelity | median of a drive | largest in "
+        "a drive | "
         "largest found by search over inputs and modes |\n|---|---|---|---|\n"
         "| rigid | %d | %d | %d |\n| lash | %d | %d | %d |\n\n",
         GM_MEASURED_RIGID_MEDIAN, GM_MEASURED_RIGID_DRIVE, GM_MEASURED_RIGID_WORST,
