@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * gearmap bake: map -> component.
+ * gearmap bake: map -> component, or description -> component of the detailed gearset.
  */
 #include "commands.h"
 
@@ -15,14 +15,14 @@ typedef struct arguments {
     const char *map, *output, *format, *passport;
     gm_bake_settings bake;
     gm_bake_c_settings c;
-    int json;
+    int detailed, json;
 } arguments;
 
 // clang-format off
 static const gm_option options[] = {
     {.kind = GM_OPTION_OPERAND, .name = "MAP", .required = 1,
      .offset = offsetof(arguments, map),
-     .help = "the map to bake"},
+     .help = "the map to bake; with --detailed the description"},
     {.kind = GM_OPTION_TEXT, .name = "output", .letter = 'o', .value = "FMU",
      .required = 1, .offset = offsetof(arguments, output),
      .help = "the file to write; for plain C the folder"},
@@ -34,6 +34,10 @@ static const gm_option options[] = {
      .offset = offsetof(arguments, passport),
      .help = "what gearmap verify --json printed about this component, for its accuracy "
              "passport; default: what the map keeps"},
+    {.kind = GM_OPTION_FLAG, .name = "detailed",
+     .offset = offsetof(arguments, detailed),
+     .help = "the detailed gearset itself as an FMU for Model Exchange, with the "
+             "variables of the reduced one and its own behind them; nothing is compiled"},
     GM_BAKE_OPTIONS(arguments),
     GM_BAKE_C_OPTIONS(arguments),
     GM_JSON_OPTION(arguments),
@@ -92,6 +96,20 @@ static gm_status bake(const arguments *a, gm_error *error)
     return status;
 }
 
+static gm_status bake_detailed(const arguments *a, gm_error *error)
+{
+    char share[GM_PATH_SIZE];
+    baked result = {.output = a->output};
+    double start = gm_stage_clock();
+    gm_status status = gm_file_check_output(a->output, a->map, error);
+    if (status == GM_OK)
+        status = gm_file_find_share(share, error);
+    if (status == GM_OK)
+        status = gm_bake_detailed(a->map, share, a->output, &result.stage.summary, error);
+    result.stage.elapsed = gm_stage_clock() - start;
+    return status == GM_OK ? gm_command_print(&form, a->json, &result, error) : status;
+}
+
 static int run(const void *given)
 {
     const arguments *a = given;
@@ -101,8 +119,12 @@ static int run(const void *given)
         fprintf(stderr, "gearmap: bake knows no format '%s' (only fmu2, c)\n", a->format);
         return GM_EXIT_USAGE;
     }
-    if (is_c && a->passport) {
-        fputs("gearmap: --passport is for FMUs\n", stderr);
+    if (is_c && a->detailed) {
+        fputs("gearmap: --detailed is for FMUs\n", stderr);
+        return GM_EXIT_USAGE;
+    }
+    if ((is_c || a->detailed) && a->passport) {
+        fputs("gearmap: --passport is for FMUs of maps\n", stderr);
         return GM_EXIT_USAGE;
     }
     if (!gm_stage_knows_interpolation(a->bake.interpolation) ||
@@ -112,12 +134,13 @@ static int run(const void *given)
         return gm_command_end(gm_bake_c_run(a->map, a->bake.interpolation, &a->c,
                                             a->output, a->json, &error),
                               &error);
-    return gm_command_end(bake(a, &error), &error);
+    return gm_command_end(a->detailed ? bake_detailed(a, &error) : bake(a, &error),
+                          &error);
 }
 
 const gm_command gm_command_bake = {
     .name = "bake",
-    .summary = "make the reduced component from a map",
+    .summary = "make the reduced component from a map, or the detailed one",
     .details =
         "The same map, options and compiler give the same bytes. Measured results go "
         "into extra/gearmap/passport.json and the documentation, and change nothing "

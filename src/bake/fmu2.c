@@ -17,67 +17,42 @@
 #include "bake/package.h"
 #include "bake/papers.h"
 #include "bake/picture.h"
+#include "bake/place.h"
 #include "bake/tables.h"
 #include "base/alloc.h"
 #include "base/sha256.h"
 
 #include <dirent.h>
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define IDENTIFIER_SIZE 64
-
 /* What the steps of one bake share. */
 typedef struct job {
     const gm_map *map;
     const gm_reduced_map *reduced;
     const gm_bake_options *options;
-    const char *target;
     gm_compiler compiler;
     gm_package package;
     gm_passport passport;
-    char identifier[IDENTIFIER_SIZE];
+    char identifier[GM_IDENTIFIER_SIZE];
     char guid[48];
     long library_size;
     char library_sha256[GM_SHA256_TEXT];
-    mode_t rights; /* of a new file */
     gm_error *error;
 } job;
-
-static bool is_lower(char c)
-{
-    return c >= 'a' && c <= 'z';
-}
-
-static bool is_word(char c)
-{
-    return is_lower(c) || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
-
-/* A C identifier from the map's name: letters, digits and underscores. */
-static void make_identifier(const char *name, char identifier[IDENTIFIER_SIZE])
-{
-    int n = 0;
-    if (!is_word(name[0]) || (name[0] >= '0' && name[0] <= '9'))
-        n = snprintf(identifier, IDENTIFIER_SIZE, "gearset%s", name[0] ? "_" : "");
-    for (; *name && n < IDENTIFIER_SIZE - 1; name++)
-        identifier[n++] = is_word(*name) ? *name : '_';
-    identifier[n] = '\0';
-}
 
 /* Names of paths become parts of variable names and of C. */
 static gm_status check_names(const job *j)
 {
     for (int p = 0; p < j->map->n_paths; p++) {
         const char *name = j->map->paths[p].name;
-        bool good = is_lower(name[0]);
+        bool good = name[0] >= 'a' && name[0] <= 'z';
         for (const char *c = name; *c; c++)
-            good = good && is_word(*c);
+            good = good && gm_is_word(*c);
         if (!good)
             return gm_fail(j->error, GM_ERR_FORMAT,
                            "the map's path name \"%s\" is not a lower-case word", name);
@@ -203,7 +178,7 @@ static gm_status add_picture(job *j)
 
 static gm_status add_map(job *j)
 {
-    char name[IDENTIFIER_SIZE + 32];
+    char name[GM_IDENTIFIER_SIZE + 32];
     unsigned char *bytes = NULL;
     size_t size = 0;
     gm_buffer file = {0};
@@ -247,7 +222,7 @@ static void remove_folder(const char *folder)
 
 static gm_status compile_in(job *j, const char *folder)
 {
-    char library[IDENTIFIER_SIZE + 8], path[4096], entry[160];
+    char library[GM_IDENTIFIER_SIZE + 8], path[4096], entry[160];
     int n;
     gm_status status = gm_package_extract(&j->package, "sources/", folder, j->error);
     if (status != GM_OK)
@@ -310,52 +285,6 @@ static gm_status build_package(job *j)
     return status == GM_OK ? add_papers(j) : status;
 }
 
-/* A new file beside the target, with the rights of any new file; -1 when there cannot be
- * one. Leftovers of killed programs are passed by. */
-static int create_part(const char *target, char *part, size_t size)
-{
-    int file = -1;
-    for (int i = 0; i < 100 && file < 0; i++) {
-        if (snprintf(part, size, "%s.%ld-%d.part", target, (long)getpid(), i) >=
-            (int)size) {
-            errno = ENAMETOOLONG;
-            return -1;
-        }
-        file = open(part, O_CREAT | O_EXCL | O_WRONLY, 0666);
-        if (file < 0 && errno != EEXIST)
-            return -1;
-    }
-    return file;
-}
-
-/* Take the place before the work: an unwritable output is refused at once. */
-static gm_status reserve_place(job *j, char *part, size_t size)
-{
-    struct stat info;
-    if (stat(j->target, &info) == 0 && !S_ISREG(info.st_mode))
-        return gm_fail(j->error, GM_ERR_IO, "%s: is not a file that could be replaced",
-                       j->target);
-    int file = create_part(j->target, part, size);
-    if (file < 0 || fstat(file, &info) != 0)
-        return gm_fail(j->error, GM_ERR_IO, "%s: cannot be written: %s", j->target,
-                       strerror(errno));
-    j->rights = info.st_mode & 0777;
-    close(file);
-    return GM_OK;
-}
-
-static gm_status put_in_place(const job *j, const char *part)
-{
-    gm_status status = gm_package_write(&j->package, part, j->error);
-    if (status != GM_OK)
-        return status;
-    /* the archive library replaces the file by one with rights of its own choice */
-    if (chmod(part, j->rights) != 0 || rename(part, j->target) != 0)
-        return gm_fail(j->error, GM_ERR_IO, "%s: cannot be written: %s", j->target,
-                       strerror(errno));
-    return GM_OK;
-}
-
 /* The tables as they will be baked. */
 static gm_status make_view(job *j, gm_map_view **view)
 {
@@ -378,13 +307,12 @@ static void end_job(job *j, gm_map_view *view)
 gm_status gm_bake_fmu2(const gm_map *map, const gm_bake_options *options,
                        const char *path, gm_bake_summary *summary, gm_error *error)
 {
-    job j = {.map = map, .options = options, .target = path, .error = error};
+    job j = {.map = map, .options = options, .error = error};
     gm_map_view *view = NULL;
     struct stat info;
-    char part[4096] = "";
-    make_identifier(map->name, j.identifier);
-    gm_status status = reserve_place(&j, part, sizeof part);
-    bool reserved = status == GM_OK;
+    gm_place place;
+    gm_make_identifier(map->name, j.identifier);
+    gm_status status = gm_place_reserve(path, &place, error);
     if (status == GM_OK)
         status = gm_compiler_find(options->compiler, &j.compiler, error);
     if (status == GM_OK)
@@ -392,9 +320,8 @@ gm_status gm_bake_fmu2(const gm_map *map, const gm_bake_options *options,
     if (status == GM_OK)
         status = build_package(&j);
     if (status == GM_OK)
-        status = put_in_place(&j, part);
-    if (status != GM_OK && reserved)
-        (void)unlink(part);
+        status = gm_place_put(&place, &j.package, error);
+    gm_place_release(&place);
     if (status == GM_OK && summary) {
         summarise(&j, summary);
         summary->file_size = stat(path, &info) == 0 ? (long)info.st_size : 0;
@@ -408,7 +335,7 @@ gm_status gm_bake_guid(const gm_map *map, const gm_bake_options *options, char g
 {
     job j = {.map = map, .options = options, .error = error};
     gm_map_view *view = NULL;
-    make_identifier(map->name, j.identifier);
+    gm_make_identifier(map->name, j.identifier);
     gm_status status = make_view(&j, &view);
     if (status == GM_OK)
         status = begin_package(&j);

@@ -49,6 +49,13 @@ GM_NODISCARD gm_status gm_bake_fmu2(const gm_map *map, const gm_bake_options *op
                                     const char *path, gm_bake_summary *summary,
                                     gm_error *error);
 
+/** Write the detailed gearset of a description file as an FMI 2.0 FMU for Model Exchange
+ *  (a linux64 binary), with the interface of the reduced one. share: as in the options;
+ *  nothing is compiled. As gm_bake_fmu2, and as gm_description_read. */
+GM_NODISCARD gm_status gm_bake_detailed(const char *description, const char *share,
+                                        const char *path, gm_bake_summary *summary,
+                                        gm_error *error);
+
 /** GUID that the component of these options will have, without compiling it; results do
  *  not count. GM_ERR_FORMAT, GM_ERR_IO, GM_ERR_MEMORY. */
 GM_NODISCARD gm_status gm_bake_guid(const gm_map *map, const gm_bake_options *options,

@@ -5,6 +5,7 @@
  */
 #include "bake/model_description.h"
 
+#include "bake/description_parts.h"
 #include "bake/model_structure.h"
 
 #include <libxml/xmlwriter.h>
@@ -22,15 +23,7 @@ static void full_name(const xml *x, scalar s, char name[80])
         snprintf(name, 80, "%s.%s", x->map->paths[s.path].name, base);
 }
 
-/* "OddGear" for path "odd". */
-static void gear_type_name(const xml *x, int p, char name[32])
-{
-    snprintf(name, 32, "%sGear", x->map->paths[p].name);
-    if (name[0] >= 'a' && name[0] <= 'z')
-        name[0] = (char)(name[0] - 'a' + 'A');
-}
-
-static void write_date(xml *x)
+void gm_describe_date(xml *x)
 {
     const char *epoch = getenv("SOURCE_DATE_EPOCH");
     char date[40];
@@ -63,7 +56,7 @@ static void write_root(xml *x, const gm_description_options *options)
     gm_xml_text(x, "license",
                 "C sources: BSD-2-Clause, see documentation/licenses/license.txt");
     gm_xml_text(x, "generationTool", "gearmap " GM_VERSION);
-    write_date(x);
+    gm_describe_date(x);
     gm_xml_text(x, "variableNamingConvention", "structured");
     gm_xml_integer(x, "numberOfEventIndicators", gm_bake_indicators(x->map->n_paths));
 }
@@ -113,143 +106,7 @@ static void write_co_simulation(xml *x, const gm_description_options *options)
     gm_xml_end(x);
 }
 
-static void exponent(xml *x, const char *name, int value)
-{
-    if (value != 0)
-        gm_xml_integer(x, name, value);
-}
-
-static void write_units(xml *x)
-{
-    const unit_type *units;
-    int n = gm_bake_units(&units);
-    gm_xml_start(x, "UnitDefinitions");
-    for (int i = 0; i < n; i++) {
-        const unit_type *u = &units[i];
-        gm_xml_start(x, "Unit");
-        gm_xml_text(x, "name", u->unit);
-        gm_xml_start(x, "BaseUnit");
-        exponent(x, "kg", u->kg);
-        exponent(x, "m", u->m);
-        exponent(x, "s", u->s);
-        exponent(x, "K", u->K);
-        exponent(x, "rad", u->rad);
-        gm_xml_end(x);
-        if (u->display.name) {
-            gm_xml_start(x, "DisplayUnit");
-            gm_xml_text(x, "name", u->display.name);
-            gm_xml_number(x, "factor", u->display.factor);
-            gm_xml_number(x, "offset", u->display.offset);
-            gm_xml_end(x);
-        }
-        gm_xml_end(x);
-    }
-    gm_xml_end(x);
-}
-
-static void write_item(xml *x, const char *name, int value, const char *description)
-{
-    gm_xml_start(x, "Item");
-    gm_xml_text(x, "name", name);
-    gm_xml_integer(x, "value", value);
-    gm_xml_text(x, "description", description);
-    gm_xml_end(x);
-}
-
-static void write_enumerations(xml *x)
-{
-    gm_xml_start(x, "SimpleType");
-    gm_xml_text(x, "name", "PathState");
-    gm_xml_text(x, "description", "what a path is doing");
-    gm_xml_start(x, "Enumeration");
-    write_item(x, "neutral", GM_PATH_NEUTRAL, "the input flange is free");
-    write_item(x, "synchronising", GM_PATH_SYNCHRONISING,
-               "the cone brings the path to the speed of its gear");
-    write_item(x, "engaged", GM_PATH_ENGAGED, "the path turns with the output");
-    gm_xml_end(x);
-    gm_xml_end(x);
-    gm_xml_start(x, "SimpleType");
-    gm_xml_text(x, "name", "Fidelity");
-    gm_xml_text(x, "description", "how the path from input to output is modelled");
-    gm_xml_start(x, "Enumeration");
-    write_item(x, "rigid", GM_RIGID, "engaged paths turn with the output");
-    write_item(x, "lash", GM_LASH, "a spring with backlash connects them");
-    gm_xml_end(x);
-    gm_xml_end(x);
-}
-
-/* The gear at the start: neutral, or the only gear of a path that has no neutral. */
-static int first_gear(const gm_map *map, int p)
-{
-    return gm_map_has_neutral(map, p) ? GM_NEUTRAL : map->paths[p].gears[0].number;
-}
-
-/* Least and greatest gear that can be commanded. */
-static void write_gear_types(xml *x)
-{
-    for (int p = 0; p < x->map->n_paths; p++) {
-        const gm_map_path *path = &x->map->paths[p];
-        char name[32];
-        int least = first_gear(x->map, p), greatest = least;
-        for (int g = 0; g < path->n_gears; g++) {
-            least = path->gears[g].number < least ? path->gears[g].number : least;
-            greatest =
-                path->gears[g].number > greatest ? path->gears[g].number : greatest;
-        }
-        gear_type_name(x, p, name);
-        gm_xml_start(x, "SimpleType");
-        gm_xml_text(x, "name", name);
-        gm_xml_text(x, "description", "-1 reverse, 0 neutral, 1 and up forward");
-        gm_xml_start(x, "Integer");
-        gm_xml_text(x, "quantity", "Gear");
-        gm_xml_integer(x, "min", least);
-        gm_xml_integer(x, "max", greatest);
-        gm_xml_end(x);
-        gm_xml_end(x);
-    }
-}
-
-static void write_types(xml *x)
-{
-    const unit_type *units;
-    int n = gm_bake_units(&units);
-    gm_xml_start(x, "TypeDefinitions");
-    for (int i = 0; i < n; i++) {
-        gm_xml_start(x, "SimpleType");
-        gm_xml_text(x, "name", units[i].type);
-        gm_xml_start(x, "Real");
-        gm_xml_text(x, "quantity", units[i].quantity);
-        gm_xml_text(x, "unit", units[i].unit);
-        if (units[i].display.name)
-            gm_xml_text(x, "displayUnit", units[i].display.name);
-        gm_xml_end(x);
-        gm_xml_end(x);
-    }
-    write_gear_types(x);
-    write_enumerations(x);
-    gm_xml_end(x);
-}
-
-static void write_log_categories(xml *x)
-{
-    static const char *const category[][2] = {
-        {"logStatusWarning", "what the component did instead of what it was told"},
-        {"logStatusDiscard", "calls that could not be done; the state is unchanged"},
-        {"logStatusError", "misuse and numbers that cannot be"},
-        {"logEvents", "gears engaged, synchronising, disengaged"},
-        {"logAll", "everything"},
-    };
-    gm_xml_start(x, "LogCategories");
-    for (size_t i = 0; i < sizeof category / sizeof *category; i++) {
-        gm_xml_start(x, "Category");
-        gm_xml_text(x, "name", category[i][0]);
-        gm_xml_text(x, "description", category[i][1]);
-        gm_xml_end(x);
-    }
-    gm_xml_end(x);
-}
-
-static void write_experiment(xml *x)
+void gm_describe_experiment(xml *x)
 {
     gm_xml_start(x, "DefaultExperiment");
     gm_xml_text(x, "startTime", "0");
@@ -289,7 +146,7 @@ static bool has_start(const variable *v)
     return v->causality == CAUSALITY_INPUT || v->initial == INITIAL_EXACT;
 }
 
-static void write_real(xml *x, scalar s, const variable *v)
+static void write_real(xml *x, scalar s, const variable *v, const scalar_form *form)
 {
     const unit_type *unit = gm_bake_unit(v->unit);
     scalar state;
@@ -300,26 +157,26 @@ static void write_real(xml *x, scalar s, const variable *v)
         gm_xml_number(x, "min", v->min);
     if (v->max < GM_FREE)
         gm_xml_number(x, "max", v->max);
-    gm_xml_number(x, "nominal", v->nominal);
+    gm_xml_number(x, "nominal", form->nominal > 0.0 ? form->nominal : v->nominal);
     if (s.id == VARIABLE_PATH_PHI || s.id == VARIABLE_OUTPUT_PHI)
         gm_xml_text(x, "unbounded", "true");
-    if (has_start(v))
+    if (has_start(v) && !form->algebraic)
         gm_xml_number(x, "start", start_value(x, s));
-    if (gm_bake_integral(s, &state))
+    if (gm_bake_integral(s, &state) && !form->algebraic)
         gm_xml_integer(x, "derivative", gm_bake_index(x->all, x->n, state));
     gm_xml_end(x);
 }
 
-static void write_type(xml *x, scalar s, const variable *v)
+static void write_type(xml *x, scalar s, const variable *v, const scalar_form *form)
 {
     char name[32];
     switch (v->type) {
     case TYPE_REAL:
-        write_real(x, s, v);
+        write_real(x, s, v, form);
         return;
     case TYPE_INTEGER:
         gm_xml_start(x, "Integer");
-        gear_type_name(x, s.path, name);
+        gm_gear_type_name(x, s.path, name);
         gm_xml_text(x, "declaredType", name);
         break;
     case TYPE_BOOLEAN:
@@ -330,49 +187,55 @@ static void write_type(xml *x, scalar s, const variable *v)
         gm_xml_text(x, "declaredType", v->type == TYPE_STATE ? "PathState" : "Fidelity");
     }
     if (s.id == VARIABLE_PATH_GEAR)
-        gm_xml_integer(x, "start", first_gear(x->map, s.path));
+        gm_xml_integer(x, "start", x->first_gear[s.path]);
     else if (has_start(v))
         gm_xml_integer(x, "start", (long)v->start);
     gm_xml_end(x);
 }
 
-static void write_variables(xml *x)
+void gm_describe_scalar(xml *x, scalar s, const scalar_form *form)
 {
     static const char *const causality[] = {"input", "output", "parameter"};
     static const char *const variability[] = {"continuous", "discrete", "fixed",
                                               "tunable"};
     static const char *const initial[] = {NULL, "exact", "calculated"};
+    const variable *v = &gm_bake_variables[s.id];
     char name[80];
+    full_name(x, s, name);
+    gm_xml_start(x, "ScalarVariable");
+    gm_xml_text(x, "name", name);
+    gm_xml_integer(x, "valueReference", (long)gm_bake_reference(s));
+    gm_xml_text(x, "description", form->description ? form->description : v->description);
+    gm_xml_text(x, "causality", causality[v->causality]);
+    gm_xml_text(x, "variability", variability[v->variability]);
+    if (initial[v->initial])
+        gm_xml_text(x, "initial",
+                    initial[form->algebraic ? INITIAL_CALCULATED : v->initial]);
+    write_type(x, s, v, form);
+    gm_xml_end(x);
+}
+
+static void write_variables(xml *x)
+{
+    static const scalar_form plain = {0.0, false, NULL};
     gm_xml_start(x, "ModelVariables");
-    for (int i = 0; i < x->n; i++) {
-        const variable *v = &gm_bake_variables[x->all[i].id];
-        full_name(x, x->all[i], name);
-        gm_xml_start(x, "ScalarVariable");
-        gm_xml_text(x, "name", name);
-        gm_xml_integer(x, "valueReference", (long)gm_bake_reference(x->all[i]));
-        gm_xml_text(x, "description", v->description);
-        gm_xml_text(x, "causality", causality[v->causality]);
-        gm_xml_text(x, "variability", variability[v->variability]);
-        if (initial[v->initial])
-            gm_xml_text(x, "initial", initial[v->initial]);
-        write_type(x, x->all[i], v);
-        gm_xml_end(x);
-    }
+    for (int i = 0; i < x->n; i++)
+        gm_describe_scalar(x, x->all[i], &plain);
     gm_xml_end(x);
 }
 
 static void write_document(xml *x, const gm_description_options *options)
 {
+    const unit_type *units;
+    int n_units = gm_bake_units(&units);
     x->failed |= xmlTextWriterSetIndent(x->writer, 1) < 0;
     x->failed |= xmlTextWriterSetIndentString(x->writer, BAD_CAST "  ") < 0;
     x->failed |= xmlTextWriterStartDocument(x->writer, "1.0", "UTF-8", NULL) < 0;
     write_root(x, options);
     write_model_exchange(x, options);
     write_co_simulation(x, options);
-    write_units(x);
-    write_types(x);
-    write_log_categories(x);
-    write_experiment(x);
+    gm_describe_types(x, units, n_units);
+    gm_describe_experiment(x);
     write_origin(x);
     write_variables(x);
     gm_model_structure_write(x);
@@ -387,6 +250,9 @@ gm_status gm_model_description_write(const gm_map *map,
     xmlBuffer *memory = xmlBufferCreate();
     xml x = {.writer = memory ? xmlNewTextWriterMemory(memory, 0) : NULL, .map = map};
     x.n = gm_bake_scalars(map->n_paths, x.all);
+    for (int p = 0; p < map->n_paths; p++)
+        x.first_gear[p] =
+            gm_map_has_neutral(map, p) ? GM_NEUTRAL : map->paths[p].gears[0].number;
     if (x.writer)
         write_document(&x, options);
     bool failed = !x.writer || x.failed;

@@ -13,6 +13,8 @@ typedef struct xml {
     void *writer; /* xmlTextWriter */
     bool failed;  /* one of its calls did */
     const gm_map *map;
+    int first_gear[GM_MAX_PATHS]; /* at the start: neutral, or the only gear of a path
+                                     that has no neutral */
     int n;
     scalar all[2 * N_VARIABLES]; /* [n] */
 } xml;

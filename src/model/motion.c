@@ -69,6 +69,7 @@ gm_status gm_motion_create(const gm_gearset *gearset, gm_motion **motion, gm_err
     if (!m)
         return gm_fail(error, GM_ERR_MEMORY, "out of memory");
     m->gearset = gearset;
+    m->loss_scale = 1.0;
     gm_status status = gm_motion_make_rows(m, error);
     if (status == GM_OK)
         status = allocate_work(m, error);

@@ -31,6 +31,7 @@ typedef struct gm_motion_lock {
     gm_lock what;    /* idling gear, clutch or brake */
     int row;         /* its row */
     double capacity; /* of its cones, N.m along the row */
+    double scale;    /* factor on it */
     gm_lock_mode mode;
     double sense; /* +-1: sign of its relative speed when synchronising began */
 } gm_motion_lock;
@@ -87,6 +88,7 @@ struct gm_motion {
     int flange[GM_MAX_FLANGES]; /* node */
     int gear[GM_MAX_INPUT_PATHS];
     double jump_loss;
+    double loss_scale; /* factor on all friction */
     gm_motion_pattern_data pattern;
     int n_signals;
     gm_motion_signal *signals; /* names owned */
@@ -112,7 +114,9 @@ int gm_motion_path_mode(const gm_motion *motion, int p);
 /** Torque of a lock's cones along its row. */
 static inline double gm_motion_cone_torque(const gm_motion_lock *lock)
 {
-    return lock->mode == GM_LOCK_SYNCHRONISING ? lock->sense * lock->capacity : 0.0;
+    return lock->mode == GM_LOCK_SYNCHRONISING
+               ? lock->sense * lock->scale * lock->capacity
+               : 0.0;
 }
 
 /** Find the pattern of the Jacobian (motion_jacobian.c). */

@@ -40,38 +40,40 @@ static gm_motion_friction mesh_at(const gm_motion *m, int i, const double *w)
     smooth_sign s = sign_of(v, GM_COULOMB_ROLLING);
     gm_mesh_friction f =
         gm_mesh_friction_at(mesh, m->force[i], fabs(v) / mesh->cos_alpha_wt);
+    double scale = m->loss_scale, torque = scale * s.value * f.value;
     return (gm_motion_friction){
         .speed = v,
-        .torque = s.value * f.value,
-        .d_speed = slope_of(f.value, f.d_speed / mesh->cos_alpha_wt, v, s),
-        .d_force = s.value * f.d_force,
-        .loss = s.value * f.value * v};
+        .torque = torque,
+        .d_speed = scale * slope_of(f.value, f.d_speed / mesh->cos_alpha_wt, v, s),
+        .d_force = scale * s.value * f.d_force,
+        .loss = torque * v};
 }
 
-/* A law without a state, with the sign of its speed. */
+/* `count` bearings together, loss_scale included. A law without a state, with the sign of
+ * its speed. */
 static gm_motion_friction sliding_at(const gm_bearing_element *e, gm_motion_bearing *b,
-                                     double v)
+                                     double count, double v)
 {
     smooth_sign s = sign_of(v, GM_COULOMB_SPEED);
     gm_bearing_torque M = gm_bearing_friction(&e->law, &b->law, b->radial, b->axial);
-    b->d_radial = e->count * s.value * M.d_radial;
-    b->d_axial = e->count * s.value * M.d_axial;
+    b->d_radial = count * s.value * M.d_radial;
+    b->d_axial = count * s.value * M.d_axial;
     return (gm_motion_friction){.speed = v,
-                                .torque = e->count * s.value * M.value,
-                                .d_speed = e->count * slope_of(M.value, M.d_speed, v, s),
-                                .loss = e->count * s.value * M.value * v};
+                                .torque = count * s.value * M.value,
+                                .d_speed = count * slope_of(M.value, M.d_speed, v, s),
+                                .loss = count * s.value * M.value * v};
 }
 
 static gm_motion_friction elastic_at(const gm_bearing_element *e, gm_motion_bearing *b,
-                                     double v, double z)
+                                     double count, double v, double z)
 {
     b->bristle = gm_bearing_elastic(&e->law, &b->law, v, z, b->radial, b->axial);
-    b->d_radial = e->count * b->bristle.torque_radial;
-    b->d_axial = e->count * b->bristle.torque_axial;
+    b->d_radial = count * b->bristle.torque_radial;
+    b->d_axial = count * b->bristle.torque_axial;
     return (gm_motion_friction){.speed = v,
-                                .torque = e->count * b->bristle.torque,
-                                .d_speed = e->count * b->bristle.torque_speed,
-                                .loss = e->count * b->bristle.loss};
+                                .torque = count * b->bristle.torque,
+                                .d_speed = count * b->bristle.torque_speed,
+                                .loss = count * b->bristle.loss};
 }
 
 static gm_motion_friction bearing_at(gm_motion *m, int i, const double *x)
@@ -85,7 +87,9 @@ static gm_motion_friction bearing_at(gm_motion *m, int i, const double *x)
     b->axial = load.axial;
     if (fabs(v) != b->law.w)
         b->law = gm_bearing_at_speed(&e->law, fabs(v));
-    return b->state >= 0 ? elastic_at(e, b, v, x[b->state]) : sliding_at(e, b, v);
+    double count = m->loss_scale * e->count;
+    return b->state >= 0 ? elastic_at(e, b, count, v, x[b->state])
+                         : sliding_at(e, b, count, v);
 }
 
 static gm_motion_friction drag_at(const gm_motion *m, int i, const double *w)
@@ -93,10 +97,12 @@ static gm_motion_friction drag_at(const gm_motion *m, int i, const double *w)
     double v = relative(&m->drag[i], w);
     smooth_sign s = sign_of(v, GM_COULOMB_SPEED);
     gm_speed_torque M = gm_drag_torque(m->gearset, &m->gearset->drags[i], fabs(v));
+    double torque = m->loss_scale * s.value * M.value;
     return (gm_motion_friction){.speed = v,
-                                .torque = s.value * M.value,
-                                .d_speed = slope_of(M.value, M.d_speed, v, s),
-                                .loss = s.value * M.value * v};
+                                .torque = torque,
+                                .d_speed =
+                                    m->loss_scale * slope_of(M.value, M.d_speed, v, s),
+                                .loss = torque * v};
 }
 
 void gm_motion_friction_at(gm_motion *motion, const double *x)
@@ -149,7 +155,7 @@ double gm_motion_bristle_energy(const gm_motion *motion)
     double energy = 0.0;
     for (int i = 0; i < motion->gearset->n_bearings; i++)
         if (motion->bearing[i].state >= 0)
-            energy +=
-                motion->gearset->bearings[i].count * motion->bearing[i].bristle.stored;
+            energy += motion->loss_scale * motion->gearset->bearings[i].count *
+                      motion->bearing[i].bristle.stored;
     return energy;
 }

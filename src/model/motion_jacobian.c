@@ -120,8 +120,8 @@ static void walk_bristle(const sink *to, int i)
 {
     const gm_motion *m = to->motion;
     const gm_motion_bearing *b = &m->bearing[i];
-    int node = b->pair.node, on = b->pair.on, count = m->gearset->bearings[i].count;
-    double c = count * b->bristle.torque_state;
+    int node = b->pair.node, on = b->pair.on;
+    double c = m->loss_scale * m->gearset->bearings[i].count * b->bristle.torque_state;
     put(to, b->state, b->state, b->bristle.rate_state);
     put(to, b->state, node, b->bristle.rate_speed);
     put(to, node, b->state, -c / m->inertia[node]);

@@ -7,6 +7,7 @@
 
 #include "base/alloc.h"
 #include "core/gm_reduced.h"
+#include "model/gm_motion_variables.h"
 
 #include <math.h>
 #include <string.h>
@@ -88,7 +89,8 @@ static int close_locks(gm_motion *m, const double *x)
     for (int i = 0; i < m->n_locks; i++) {
         gm_motion_lock *lock = &m->locks[i];
         if (lock->mode != GM_LOCK_SYNCHRONISING ||
-            lock->sense * gm_row_speed(&m->rows[lock->row].row, x) > same_speed)
+            (lock->scale * lock->capacity < GM_MOTION_AT_ONCE &&
+             lock->sense * gm_row_speed(&m->rows[lock->row].row, x) > same_speed))
             continue;
         set_mode(m, lock, GM_LOCK_CLOSED);
         changed = 1;

@@ -54,6 +54,7 @@ static void make_lock(gm_motion *m, int i, gm_lock what)
                                    .what = what,
                                    .row = m->gearset->n_meshes + i,
                                    .capacity = gm_lock_capacity(d, &what),
+                                   .scale = 1.0,
                                    .sense = 1.0};
 }
 

@@ -21,10 +21,11 @@ ARROWS = {
     "plant": {"model", "base"},
     "solve": {"plant", "base"},
     "sweep": {"plant", "solve", "map", "base"},
-    "bake": {"map", "core", "base"},
+    "bake": {"map", "model", "core", "base"},
     "vehicle": {"plant", "solve", "model", "base"},
     "fmu": {"core"},
     "embedded": {"core"},
+    "fmu_detailed": {"fmu", "model", "core", "base"},
 }
 # A foreign library is the business of these rooms only.
 LIBRARIES = {
@@ -40,7 +41,8 @@ INCLUDE = re.compile(r'^\s*#\s*include\s+([<"])([^">]+)[">]', re.M)
 
 
 def room_folder(room):
-    return ROOT / room if room in ("fmu", "embedded", "tools") else ROOT / "src" / room
+    top = room in ("fmu", "fmu_detailed", "embedded", "tools")
+    return ROOT / room if top else ROOT / "src" / room
 
 
 def c_files(room):
@@ -85,7 +87,8 @@ def test_core_and_fmu_include_siblings_by_bare_name():
 
 
 INCLUDE_PATH = [ROOT / "src", ROOT / "src" / "core", ROOT / "fmu", ROOT / "fmu" / "example",
-                ROOT / "embedded", ROOT / "tools", Path(os.environ["GM_BINARY_DIR"]) / "share/gearmap/fmi2"]
+                ROOT / "fmu_detailed", ROOT / "embedded", ROOT / "tools",
+                Path(os.environ["GM_BINARY_DIR"]) / "share/gearmap/fmi2"]
 
 
 def compile_alone(source, *options, standard="c11"):
@@ -191,7 +194,8 @@ def test_library_prefixes_its_names():
 
 
 SOURCES = ["*.c", "*.h", "*.def", "*.py", "*.sh", "*.cmake", "CMakeLists.txt"]
-FOLDERS = ["src", "fmu", "embedded", "tools", "tests", "bench", "examples", "cmake"]
+FOLDERS = ["src", "fmu", "fmu_detailed", "embedded", "tools", "tests", "bench", "examples",
+           "cmake"]
 
 
 def all_sources():

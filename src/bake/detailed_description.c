@@ -1,0 +1,475 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * Source: FMI for Model Exchange and Co-Simulation 2.0.3, sections 2.2 and 3.3.1.
+ *
+ * States in the order of fmu_detailed/gm_detailed.h: those of the motion, the angles of
+ * the flanges (output first), work, loss energy. Dependencies of the rates are the rows
+ * of the motion's Jacobian.
+ */
+#include "bake/detailed_description.h"
+
+#include "base/alloc.h"
+#include "bake/description_parts.h"
+
+#include <libxml/xmlwriter.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct writing {
+    xml x;
+    const gm_detailed_subject *subject;
+    int n_motion, n_paths;
+    int *column_start, *row; /* pattern of the Jacobian */
+    int *state;              /* [n_motion]: index of the variable that is the state */
+    bool *on;                /* [1 + all variables]: dependencies of one unknown */
+    double *nominal;         /* [n_motion] */
+} writing;
+
+/* ---- what differs from a reduced gearset ---- */
+
+static scalar_form form_of(const writing *w, scalar s)
+{
+    scalar_form form = {0.0, false, NULL};
+    switch (s.id) {
+    case VARIABLE_OUTPUT_W:
+    case VARIABLE_PATH_W:
+        form.nominal = w->nominal[gm_motion_speed_state(w->subject->motion, 1 + s.path)];
+        break;
+    case VARIABLE_PATH_TWIST:
+    case VARIABLE_PATH_TWIST_RATE:
+        form.algebraic = true;
+        break;
+    case VARIABLE_OIL_TEMPERATURE:
+        form.description = "oil temperature; a change takes effect at the next event";
+        break;
+    case VARIABLE_OUT_OF_MAP:
+        form.description = "always false: there is no map that could be left";
+        break;
+    case VARIABLE_FIDELITY:
+        form.description = "without effect: the detailed gearset is always elastic";
+        break;
+    case VARIABLE_PATH_INERTIA:
+    case VARIABLE_OUTPUT_INERTIA:
+        form.description = "inertia of the part that the flange sits on";
+        break;
+    case VARIABLE_RECOMMENDED_STEP:
+        form.description = "longest step that follows the fastest vibration of a part";
+        break;
+    default:
+        break;
+    }
+    return form;
+}
+
+/* Units of variables that a reduced gearset does not have. */
+static const unit_type more_units[] = {
+    {.unit = "N", .type = "Force", .quantity = "Force", .kg = 1, .m = 1, .s = -2},
+    {.unit = "m",
+     .type = "Length",
+     .quantity = "Length",
+     .m = 1,
+     .display = {"um", 1e6, 0.0}},
+    {.unit = "m/s", .type = "Velocity", .quantity = "Velocity", .m = 1, .s = -1},
+};
+enum { N_MORE = sizeof more_units / sizeof *more_units, UNITS_MAX = 64 };
+
+static int all_units(unit_type units[UNITS_MAX])
+{
+    const unit_type *common;
+    int n = gm_bake_units(&common);
+    memcpy(units, common, (size_t)n * sizeof *units);
+    memcpy(units + n, more_units, sizeof more_units);
+    return n + N_MORE;
+}
+
+/* ---- indices ---- */
+
+static int index_of(const writing *w, variable_id id, int path)
+{
+    return gm_bake_index(w->x.all, w->x.n, (scalar){id, path});
+}
+
+static int speed_index(const writing *w, int flange)
+{
+    return flange == 0 ? index_of(w, VARIABLE_OUTPUT_W, -1)
+                       : index_of(w, VARIABLE_PATH_W, flange - 1);
+}
+
+static int torque_index(const writing *w, int flange)
+{
+    return flange == 0 ? index_of(w, VARIABLE_OUTPUT_TAU, -1)
+                       : index_of(w, VARIABLE_PATH_TAU, flange - 1);
+}
+
+static int inner_index(const writing *w, int i)
+{
+    return w->x.n + 1 + i;
+}
+
+/* The list's variable of a kind that belongs to state or signal i. */
+static int inner_of(const writing *w, gm_motion_variable_kind kind, int i)
+{
+    const gm_motion_variables *list = w->subject->variables;
+    int k = 0;
+    while (list->all[k].kind != kind || list->all[k].index != i)
+        k++;
+    return inner_index(w, k);
+}
+
+static int rate_index(const writing *w, int state)
+{
+    int flange = gm_motion_flange_of_state(w->subject->motion, state);
+    if (flange < 0)
+        return inner_of(w, GM_MOTION_RATE, state);
+    return flange == 0 ? index_of(w, VARIABLE_OUTPUT_A, -1)
+                       : index_of(w, VARIABLE_PATH_A, flange - 1);
+}
+
+static void find_states(writing *w)
+{
+    for (int i = 0; i < w->n_motion; i++) {
+        int flange = gm_motion_flange_of_state(w->subject->motion, i);
+        w->state[i] =
+            flange >= 0 ? speed_index(w, flange) : inner_of(w, GM_MOTION_STATE, i);
+    }
+}
+
+/* ---- head ---- */
+
+static void write_root(xml *x, const gm_detailed_subject *s)
+{
+    const gm_description *d = gm_gearset_description(s->gearset);
+    char line[GM_MAP_TEXT + 32];
+    (void)snprintf(line, sizeof line, "Detailed gearset: %.*s", GM_MAP_TEXT,
+                   d->title && d->title[0] ? d->title : d->name);
+    gm_xml_start(x, "fmiModelDescription");
+    gm_xml_text(x, "fmiVersion", "2.0");
+    gm_xml_foreign_text(x, "modelName", d->name[0] ? d->name : s->identifier);
+    gm_xml_text(x, "guid", s->guid);
+    gm_xml_foreign_text(x, "description", line);
+    gm_xml_text(x, "author", "generated by gearmap");
+    gm_xml_text(x, "version", d->sha256);
+    gm_xml_text(x, "license", "see documentation/licenses");
+    gm_xml_text(x, "generationTool", "gearmap " GM_VERSION);
+    gm_describe_date(x);
+    gm_xml_text(x, "variableNamingConvention", "structured");
+    gm_xml_integer(x, "numberOfEventIndicators", gm_motion_n_events(s->motion));
+}
+
+static void write_model_exchange(xml *x, const char *identifier)
+{
+    static const char *const flag[][2] = {
+        {"needsExecutionTool", "false"},
+        {"completedIntegratorStepNotNeeded", "false"},
+        {"canBeInstantiatedOnlyOncePerProcess", "false"},
+        {"canNotUseMemoryManagementFunctions", "true"},
+        {"canGetAndSetFMUstate", "true"},
+        {"canSerializeFMUstate", "true"},
+        {"providesDirectionalDerivative", "true"},
+    };
+    gm_xml_start(x, "ModelExchange");
+    gm_xml_text(x, "modelIdentifier", identifier);
+    for (size_t i = 0; i < sizeof flag / sizeof *flag; i++)
+        gm_xml_text(x, flag[i][0], flag[i][1]);
+    gm_xml_end(x);
+}
+
+static void write_origin(xml *x)
+{
+    gm_xml_start(x, "VendorAnnotations");
+    gm_xml_start(x, "Tool");
+    gm_xml_text(x, "name", "gearmap");
+    gm_xml_start(x, "Gearset");
+    gm_xml_text(x, "descriptionSha256", x->map->input_sha256);
+    gm_xml_number(x, "oilTemperature", x->map->oil_temperature); /* K */
+    gm_xml_end(x);
+    gm_xml_end(x);
+    gm_xml_end(x);
+}
+
+/* ---- variables ---- */
+
+static void write_inner(writing *w, int i, const unit_type *units, int n_units)
+{
+    const gm_motion_variable *v = &w->subject->variables->all[i];
+    xml *x = &w->x;
+    gm_xml_start(x, "ScalarVariable");
+    gm_xml_foreign_text(x, "name", v->name);
+    gm_xml_integer(x, "valueReference", (long)GM_MOTION_REFERENCES + i);
+    gm_xml_text(x, "causality", v->shown ? "output" : "local");
+    gm_xml_text(x, "variability", "continuous");
+    gm_xml_text(x, "initial", "calculated");
+    gm_xml_start(x, "Real");
+    for (int k = 0; k < n_units; k++)
+        if (!strcmp(units[k].unit, v->unit))
+            gm_xml_text(x, "declaredType", units[k].type);
+    gm_xml_text(x, "unit", v->unit);
+    if (v->nominal > 0.0)
+        gm_xml_number(x, "nominal", v->nominal);
+    if (v->kind == GM_MOTION_RATE)
+        gm_xml_integer(x, "derivative", w->state[v->index]);
+    gm_xml_end(x);
+    gm_xml_end(x);
+}
+
+static void write_variables(writing *w, const unit_type *units, int n_units)
+{
+    gm_xml_start(&w->x, "ModelVariables");
+    for (int i = 0; i < w->x.n; i++) {
+        scalar_form form = form_of(w, w->x.all[i]);
+        gm_describe_scalar(&w->x, w->x.all[i], &form);
+    }
+    for (int i = 0; i < w->subject->variables->n; i++)
+        write_inner(w, i, units, n_units);
+    gm_xml_end(&w->x);
+}
+
+/* ---- structure ---- */
+
+static void on_states(writing *w)
+{
+    for (int i = 0; i < w->n_motion; i++)
+        w->on[w->state[i]] = true;
+}
+
+static void on_flanges(writing *w, bool torques, bool speeds)
+{
+    for (int f = 0; f <= w->n_paths; f++) {
+        w->on[torque_index(w, f)] |= torques;
+        w->on[speed_index(w, f)] |= speeds;
+    }
+}
+
+/* Row of the Jacobian, and the flange's torque where it has one. */
+static void on_row(writing *w, int state)
+{
+    int flange = gm_motion_flange_of_state(w->subject->motion, state);
+    for (int j = 0; j < w->n_motion; j++)
+        for (int k = w->column_start[j]; k < w->column_start[j + 1]; k++)
+            if (w->row[k] == state)
+                w->on[w->state[j]] = true;
+    if (flange >= 0)
+        w->on[torque_index(w, flange)] = true;
+}
+
+/* What a variable of the flanges follows directly, between events. */
+static void on_scalar(writing *w, scalar s)
+{
+    gm_motion *m = w->subject->motion;
+    switch (s.id) {
+    case VARIABLE_OUTPUT_A:
+    case VARIABLE_PATH_A:
+        on_row(w, gm_motion_speed_state(m, 1 + s.path));
+        break;
+    case VARIABLE_POWER:
+        on_flanges(w, true, true);
+        break;
+    case VARIABLE_PATH_TWIST_RATE:
+        w->on[speed_index(w, 0)] = w->on[speed_index(w, 1 + s.path)] = true;
+        break;
+    case VARIABLE_PATH_LOSS_TORQUE:
+    case VARIABLE_OUTPUT_LOSS_TORQUE:
+        on_flanges(w, true, true);
+        on_states(w);
+        break;
+    case VARIABLE_PATH_TWIST:
+    case VARIABLE_LOSS_POWER:
+    case VARIABLE_KINETIC_ENERGY:
+    case VARIABLE_ELASTIC_ENERGY:
+        on_states(w);
+        break;
+    case VARIABLE_OUTPUT_PHI:
+    case VARIABLE_PATH_PHI:
+    case VARIABLE_OUTPUT_W:
+    case VARIABLE_PATH_W:
+    case VARIABLE_WORK:
+    case VARIABLE_LOSS_ENERGY:
+        w->on[index_of(w, s.id, s.path)] = true;
+        break;
+    default: /* changes at events only */
+        break;
+    }
+}
+
+static void on_inner(writing *w, const gm_motion_variable *v)
+{
+    if (v->kind == GM_MOTION_STATE)
+        w->on[w->state[v->index]] = true;
+    else if (v->kind == GM_MOTION_RATE)
+        on_row(w, v->index);
+    else
+        on_states(w);
+}
+
+static void write_unknown(writing *w, int index)
+{
+    gm_buffer on = {0};
+    int n = w->x.n + w->subject->variables->n;
+    for (int i = 1; i <= n; i++)
+        if (w->on[i])
+            gm_buffer_text(&on, "%s%d", on.size ? " " : "", i);
+    memset(w->on, 0, (size_t)(n + 1) * sizeof *w->on);
+    w->x.failed |= on.failed;
+    gm_xml_start(&w->x, "Unknown");
+    gm_xml_integer(&w->x, "index", index);
+    gm_xml_text(&w->x, "dependencies", on.data ? on.data : "");
+    gm_xml_end(&w->x);
+    gm_buffer_clear(&on);
+}
+
+static void write_outputs(writing *w)
+{
+    const gm_motion_variables *list = w->subject->variables;
+    gm_xml_start(&w->x, "Outputs");
+    for (int i = 0; i < w->x.n; i++)
+        if (gm_bake_variables[w->x.all[i].id].causality == CAUSALITY_OUTPUT) {
+            on_scalar(w, w->x.all[i]);
+            write_unknown(w, i + 1);
+        }
+    for (int i = 0; i < list->n; i++)
+        if (list->all[i].shown) {
+            on_inner(w, &list->all[i]);
+            write_unknown(w, inner_index(w, i));
+        }
+    gm_xml_end(&w->x);
+}
+
+static void write_derivatives(writing *w)
+{
+    gm_xml_start(&w->x, "Derivatives");
+    for (int i = 0; i < w->n_motion; i++) {
+        on_row(w, i);
+        write_unknown(w, rate_index(w, i));
+    }
+    for (int f = 0; f <= w->n_paths; f++) {
+        w->on[speed_index(w, f)] = true;
+        write_unknown(w, speed_index(w, f));
+    }
+    on_flanges(w, true, true);
+    write_unknown(w, index_of(w, VARIABLE_POWER, -1));
+    on_states(w);
+    write_unknown(w, index_of(w, VARIABLE_LOSS_POWER, -1));
+    gm_xml_end(&w->x);
+}
+
+/* All that is calculated; everything may follow from anything. */
+static void write_initial(writing *w)
+{
+    gm_xml_start(&w->x, "InitialUnknowns");
+    for (int i = 0; i < w->x.n + w->subject->variables->n; i++) {
+        if (i < w->x.n &&
+            gm_bake_variables[w->x.all[i].id].initial != INITIAL_CALCULATED &&
+            w->x.all[i].id != VARIABLE_PATH_TWIST)
+            continue;
+        gm_xml_start(&w->x, "Unknown");
+        gm_xml_integer(&w->x, "index", i + 1);
+        gm_xml_end(&w->x);
+    }
+    gm_xml_end(&w->x);
+}
+
+static void write_document(writing *w)
+{
+    unit_type units[UNITS_MAX];
+    int n_units = all_units(units);
+    xml *x = &w->x;
+    x->failed |= xmlTextWriterSetIndent(x->writer, 1) < 0;
+    x->failed |= xmlTextWriterSetIndentString(x->writer, BAD_CAST "  ") < 0;
+    x->failed |= xmlTextWriterStartDocument(x->writer, "1.0", "UTF-8", NULL) < 0;
+    write_root(x, w->subject);
+    write_model_exchange(x, w->subject->identifier);
+    gm_describe_types(x, units, n_units);
+    gm_describe_experiment(x);
+    write_origin(x);
+    write_variables(w, units, n_units);
+    gm_xml_start(x, "ModelStructure");
+    write_outputs(w);
+    write_derivatives(w);
+    write_initial(w);
+    gm_xml_end(x);
+    gm_xml_end(x);
+    x->failed |= xmlTextWriterEndDocument(x->writer) < 0;
+}
+
+/* ---- all ---- */
+
+/* Paths and gears in the form that the common parts read. */
+static gm_status fill_map(const gm_gearset *gearset, gm_map *map, gm_error *error)
+{
+    const gm_description *d = gm_gearset_description(gearset);
+    (void)snprintf(map->name, sizeof map->name, "%.*s", GM_MAP_TEXT - 1, d->name);
+    (void)snprintf(map->input_sha256, sizeof map->input_sha256, "%s", d->sha256);
+    map->oil_temperature = d->oil.temperature;
+    for (int p = 0; p < d->n_paths; p++) {
+        const gm_path_part *path = &d->paths[p];
+        gm_status status = gm_map_set_path(map, p, path->id.name, path->n_gears, error);
+        if (status != GM_OK)
+            return status;
+        map->paths[p].sync_torque = gm_gearset_sync_torque(gearset, p);
+        for (int g = 0; g < path->n_gears; g++)
+            map->paths[p].gears[g].number = path->gears[g].number;
+    }
+    return GM_OK;
+}
+
+static gm_status make_room(writing *w, gm_error *error)
+{
+    gm_motion *m = w->subject->motion;
+    size_t n = (size_t)w->n_motion;
+    w->column_start = gm_calloc(n + 1, sizeof *w->column_start);
+    w->row = gm_calloc((size_t)gm_motion_entries(m), sizeof *w->row);
+    w->state = gm_calloc(n, sizeof *w->state);
+    w->nominal = gm_calloc(n, sizeof *w->nominal);
+    w->on = gm_calloc((size_t)(w->x.n + w->subject->variables->n + 1), sizeof *w->on);
+    if (!w->column_start || !w->row || !w->state || !w->nominal || !w->on)
+        return gm_fail(error, GM_ERR_MEMORY, "no memory to write modelDescription.xml");
+    gm_motion_pattern(m, w->column_start, w->row);
+    gm_motion_tolerances(m, 1.0, w->nominal);
+    find_states(w);
+    return GM_OK;
+}
+
+static gm_status write_to(writing *w, gm_buffer *buffer, gm_error *error)
+{
+    xmlBuffer *memory = xmlBufferCreate();
+    w->x.writer = memory ? xmlNewTextWriterMemory(memory, 0) : NULL;
+    if (w->x.writer)
+        write_document(w);
+    bool failed = !w->x.writer || w->x.failed;
+    xmlFreeTextWriter(w->x.writer); /* flushes */
+    if (!failed)
+        gm_buffer_bytes(buffer, xmlBufferContent(memory),
+                        (size_t)xmlBufferLength(memory));
+    xmlBufferFree(memory);
+    if (failed || buffer->failed)
+        return gm_fail(error, GM_ERR_MEMORY, "no memory to write modelDescription.xml");
+    return GM_OK;
+}
+
+gm_status gm_detailed_description_write(const gm_detailed_subject *subject,
+                                        gm_buffer *buffer, gm_error *error)
+{
+    const gm_description *d = gm_gearset_description(subject->gearset);
+    gm_map *map = gm_map_create();
+    writing w = {.x = {.map = map},
+                 .subject = subject,
+                 .n_paths = d->n_paths,
+                 .n_motion = gm_motion_n_states(subject->motion)};
+    gm_status status = map ? fill_map(subject->gearset, map, error)
+                           : gm_fail(error, GM_ERR_MEMORY, "out of memory");
+    w.x.n = gm_bake_scalars(d->n_paths, w.x.all);
+    for (int p = 0; p < d->n_paths; p++)
+        w.x.first_gear[p] = gm_path_rest_gear(&d->paths[p]);
+    if (status == GM_OK)
+        status = make_room(&w, error);
+    if (status == GM_OK)
+        status = write_to(&w, buffer, error);
+    gm_free(w.column_start);
+    gm_free(w.row);
+    gm_free(w.state);
+    gm_free(w.nominal);
+    gm_free(w.on);
+    gm_map_destroy(map);
+    return status;
+}
