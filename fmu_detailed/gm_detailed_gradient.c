@@ -121,7 +121,8 @@ static bool move(gm_detailed *d, values from, const double *x,
     for (int i = 0; i < d->n_states; i++)
         d->x[i] = x[i] + step * direction->x[i];
     for (int id = 0; id < GM_VARIABLES; id++)
-        for (int p = 0; p < d->n_paths; p++)
+        for (int p = 0; p < (gm_variables[id].scope == GM_SCOPE_PATH ? d->n_paths : 1);
+             p++)
             gm_detailed_set(d, (gm_reference){(gm_variable_id)id, p},
                             from[id][p] + step * direction->value[id][p]);
     return !direction->initial || gm_detailed_start(d, &error) == GM_OK;
