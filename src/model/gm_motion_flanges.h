@@ -3,14 +3,14 @@
  * A gearset in motion in the terms of a reduced one: what its inner forces mean at the
  * flanges. By virtual work, with the kinematics of the present configuration:
  *
- *   twist of an engaged path   sum F_e x_e with the row forces F_e at 1 N.m on its flange;
- *                              its rate is w_p - r w_o
- *   loss torques               friction of all parts as torques on the independent speeds:
- *                              the output and every path that is not engaged
+ *   twist of an engaged path   sum F_e x_e with the row forces F_e at 1 N.m on its
+ *                              flange; its rate is w_p - r w_o
+ *   loss torques               friction of all parts as torques on the independent
+ *                              speeds: the output and every path that is not engaged
  *
- * What load adds to the friction (now, less friction at the same speeds without row forces)
- * is the loss torque of the engaged path, the rest stays at the output; of two engaged
- * paths each takes the share of its power. A path that synchronises counts as neutral.
+ * What load adds to the friction (now, less friction at the same speeds without row
+ * forces) is the loss torque of the engaged path, the rest stays at the output; of two
+ * engaged paths each takes the share of its power. A path that synchronises counts as neutral.
  * Loss torques at the flanges times their speeds make the power of friction, but for what
  * elastic parts move against each other.
  */

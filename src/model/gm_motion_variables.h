@@ -9,8 +9,8 @@
  *   der(STATE)                                their rates
  *   mesh.NAME.force, bearing.NAME.radial ...  the other signals of gm_motion_observe
  *
- * Speeds of flanges are variables of the flanges and not in the list, nor are signals that
- * repeat a state.
+ * Speeds of flanges are variables of the flanges and not in the list, nor are signals
+ * that repeat a state.
  */
 #ifndef GM_MOTION_VARIABLES_H
 #define GM_MOTION_VARIABLES_H
@@ -36,8 +36,8 @@ typedef struct gm_motion_variable {
     int shown;      /* 1: an output; 0: of interest to the solver alone */
 } gm_motion_variable;
 
-/** Value references of a component: those of the flanges' variables (core/gm_vars.def) lie
- *  below, here follows the list. */
+/** Value references of a component: those of the flanges' variables (core/gm_vars.def)
+ *  lie below, here follows the list. */
 #define GM_MOTION_REFERENCES 4096u
 
 typedef struct gm_motion_variables {

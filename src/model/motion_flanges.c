@@ -13,8 +13,8 @@ struct gm_motion_flanges {
     gm_motion *motion;
     double ratio[GM_MAX_INPUT_PATHS];
     double *row_force; /* [n_paths][n_rows] at 1 N.m on the path's flange */
-    double *way; /* [n_flanges][n_nodes]: speeds of the nodes where this flange turns
-                          with 1 rad/s and the other independent ones stand; 0: it depends */
+    double *way; /* [n_flanges][n_nodes]: speeds of the nodes where this flange turns with
+                    1 rad/s and the other independent ones stand; 0: it depends */
     double *force, *torque; /* scratch: [n_rows], [n_nodes] */
 };
 
