@@ -2,8 +2,8 @@
  *
  * FMI 2.0: the state of the FMU kept, restored and made into bytes (FMI 2.0.3, section
  * 2.1.8). A state is one block: a head with a magic number, the component's GUID and a
- * sum that finds damage, then numbers. The bytes are valid in every process that runs this
- * component on a platform with the same byte order.
+ * sum that finds damage, then numbers. The bytes are valid in every process that runs
+ * this component on a platform with the same byte order.
  */
 #include "fmi2_detailed.h"
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
  * Directional derivatives. Rates of the states come from the exact Jacobian of the
- * motion; other outputs (losses, energies, forces of meshes and bearings), and everything during
- * initialisation, from central differences.
+ * motion; other outputs (losses, energies, forces of meshes and bearings), and everything
+ * during initialisation, from central differences.
  */
 #ifndef GM_DETAILED_GRADIENT_H
 #define GM_DETAILED_GRADIENT_H

@@ -10,9 +10,9 @@
  *
  * What load adds to the friction (now, less friction at the same speeds without row
  * forces) is the loss torque of the engaged path, the rest stays at the output; of two
- * engaged paths each takes the share of its power. A path that synchronises counts as neutral.
- * Loss torques at the flanges times their speeds make the power of friction, but for what
- * elastic parts move against each other.
+ * engaged paths each takes the share of its power. A path that synchronises counts as
+ * neutral. Loss torques at the flanges times their speeds make the power of friction, but
+ * for what elastic parts move against each other.
  */
 #ifndef GM_MOTION_FLANGES_H
 #define GM_MOTION_FLANGES_H
