@@ -66,6 +66,9 @@ int gm_inputs_are_finite(const gm_reduced_map *map, const gm_reduced_inputs *in)
     for (int p = 0; p < map->n_paths; p++) {
         sum += nothing_of(in->path_tau[p]) + nothing_of(in->path_tau_rate[p]);
     }
+    for (int k = 0; k < GM_SHAFTS; k++) {
+        sum += map->prescribed[k] ? nothing_of(in->w[k]) + nothing_of(in->a[k]) : 0;
+    }
     return sum == 0;
 }
 
@@ -148,13 +151,29 @@ static void lock_synchronised(const gm_reduced_map *map, const gm_reduced_params
 
 /* ---- public ---- */
 
+/* The output's: prescribed, or that of an engaged path that is, or as wanted. */
+static gm_real start_speed(const gm_reduced_map *map, const gm_reduced_inputs *in,
+                           gm_real wanted)
+{
+    if (map->prescribed[GM_OUT]) {
+        return in->w[GM_OUT];
+    }
+    for (int p = 0; p < map->n_paths; p++) {
+        const int gear = gm_reduced_find_gear(map, p, in->gear[p]);
+        if (map->prescribed[p] && gear >= 0) {
+            return in->w[p] / map->path[p].gears[gear].ratio;
+        }
+    }
+    return wanted;
+}
+
 int gm_reduced_start(const gm_reduced_map *map, const gm_reduced_inputs *inputs,
                      gm_real w_o, const gm_real *w, gm_reduced_state *state)
 {
     static const gm_reduced_state zero = {0};
     gm_motion s = {0, 0, 0, 0, {{0, 0, 0, 0, -1, 0}, {0, 0, 0, 0, -1, 0}}, 0, 0};
     int flags = 0;
-    s.w_o = w_o;
+    s.w_o = start_speed(map, inputs, w_o);
     for (int p = 0; p < map->n_paths; p++) {
         gm_path_state *path = &s.path[p];
         const int gear = gm_reduced_find_gear(map, p, inputs->gear[p]);
@@ -165,8 +184,9 @@ int gm_reduced_start(const gm_reduced_map *map, const gm_reduced_inputs *inputs,
         path->gear = gear >= 0 ? gear : gm_reduced_has_neutral(map, p) ? -1 : 0;
         if (path->gear >= 0) {
             path->mode = GM_PATH_ENGAGED;
-            path->w = gm_motion_gear(map, &s, p)->ratio * w_o;
+            path->w = gm_motion_gear(map, &s, p)->ratio * s.w_o;
         }
+        path->w = map->prescribed[p] ? inputs->w[p] : path->w;
     }
     if (!gm_inputs_are_finite(map, inputs) || !gm_motion_is_finite(map, &s)) {
         return GM_FLAG_NOT_FINITE;
@@ -185,6 +205,7 @@ int gm_reduced_step(const gm_reduced_map *map, const gm_reduced_params *params,
     gm_motion s = gm_load_motion(state);
     gm_real rest = h;
     int flags = 0, outside = 0;
+    gm_take_prescribed(map, params, inputs, &s);
     for (int p = 0; p < map->n_paths; p++) {
         flags |= gm_command_gear(map, params, p, inputs->gear[p], &s);
     }
@@ -241,6 +262,7 @@ static void path_outputs(const gm_drive *d, const gm_solution *s, int p,
 {
     const gm_path_terms *t = &s->terms.path[p];
     const gm_real c = p == 0 ? s->terms.coupling : -s->terms.coupling;
+    o->tau[p] = d->tau[p];
     if (d->elastic[p]) {
         o->inertia[p] = d->inertia[p];
         o->twist_rate[p] = gm_slip(d, &s->point, p);
@@ -304,6 +326,7 @@ int gm_observe(const gm_drive *d, gm_solution *solution, gm_reduced_outputs *out
     o.inertia_o = d->inertia[GM_OUT];
     o.step = recommended_step(d);
     o.output_loss_torque = solution->terms.out;
+    o.tau[GM_OUT] = d->tau[GM_OUT];
     o.kinetic_energy = d->inertia[GM_OUT] * w_o * w_o / 2;
     for (int p = 0; p < d->n_paths; p++) {
         path_outputs(d, solution, p, &o);

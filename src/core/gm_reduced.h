@@ -128,6 +128,11 @@ typedef struct gm_reduced_map {
                                 when value = NULL. C(w_1 - w_0) = -C(w_0 - w_1). */
     gm_real inertia_output;  /* J_out [kg.m2] */
     gm_real oil_temperature; /* that the tables hold for [K] */
+    /* Flanges, the output last, whose motion is prescribed from outside: speed and
+       acceleration come in, the torque that they take goes out. A path's needs fidelity
+       lash and gears with a stiffness: a rigid path that is engaged turns with the output,
+       whatever is prescribed. */
+    int prescribed[GM_MAX_PATHS + 1];
 } gm_reduced_map;
 
 typedef enum gm_path_mode {
@@ -154,6 +159,10 @@ typedef struct gm_reduced_inputs {
     gm_real path_tau[GM_MAX_PATHS], path_tau_rate[GM_MAX_PATHS];
     int gear[GM_MAX_PATHS];  /* commanded gear numbers */
     gm_real oil_temperature; /* K; without effect while maps have no such axis */
+    /* Of prescribed flanges, instead of torques: speed at the start of a step [rad/s] and
+       its derivative over it [rad/s2]. A speed that jumps between steps does so by an
+       impulse, which is in the account of work. */
+    gm_real w[GM_MAX_PATHS + 1], a[GM_MAX_PATHS + 1];
 } gm_reduced_inputs;
 
 /** State of one path. */
@@ -234,6 +243,8 @@ typedef struct gm_reduced_outputs {
     gm_real step; /* the longest of 10, 5, 2, 1 ms ... that follows every vibration [s] */
     gm_real inertia_o;             /* that the output flange feels at once, */
     gm_real inertia[GM_MAX_PATHS]; /* and that of each path [kg.m2] */
+    gm_real tau[GM_MAX_PATHS + 1]; /* into the gearset, the output last: what a prescribed
+                                      flange takes, or the input [N.m] */
 } gm_reduced_outputs;
 
 /** Flags of a call, or-ed. */

@@ -137,11 +137,11 @@ static void make_matrix(const gm_drive *d, gm_solution *s, matrix *m)
     for (int attempt = 0; attempt < 2; attempt++) {
         *m = unit;
         for (int p = 0; p < d->n_paths; p++) {
-            if (d->own[p] && !s->held[p]) {
+            if (gm_moves(d, s, p)) {
                 path_row(d, &s->terms, p, m);
             }
         }
-        if (!s->held[GM_OUT]) {
+        if (gm_moves(d, s, GM_OUT)) {
             output_row(d, s, m);
         }
         if (factorise(m)) {
@@ -160,8 +160,9 @@ static void add_springs(const gm_drive *d, gm_solution *s, const matrix *m,
     gm_yield yield = {{0, 0}, {{0, 0}, {0, 0}}};
     for (int q = 0; q < d->n_paths; q++) {
         if (d->elastic[q]) {
-            per_torque[q][q] = s->held[q] ? 0 : -1;
-            per_torque[q][GM_OUT] = s->held[GM_OUT] ? 0 : passed_by_spring(d, s, q);
+            per_torque[q][q] = gm_moves(d, s, q) ? -1 : 0;
+            per_torque[q][GM_OUT] =
+                gm_moves(d, s, GM_OUT) ? passed_by_spring(d, s, q) : 0;
             substitute(m, per_torque[q]);
         }
     }
@@ -189,9 +190,9 @@ void gm_newton_change(const gm_drive *d, gm_solution *s, const gm_point *at,
 {
     matrix m;
     make_matrix(d, s, &m);
-    change[GM_OUT] = s->held[GM_OUT] ? 0 : gm_output_balance(d, &s->terms, at);
+    change[GM_OUT] = gm_moves(d, s, GM_OUT) ? gm_output_balance(d, &s->terms, at) : 0;
     for (int p = 0; p < GM_MAX_PATHS; p++) {
-        change[p] = d->own[p] && !s->held[p] ? gm_path_balance(d, &s->terms, at, p) : 0;
+        change[p] = gm_moves(d, s, p) ? gm_path_balance(d, &s->terms, at, p) : 0;
     }
     substitute(&m, change);
     if (d->elastic[0] || d->elastic[1]) {

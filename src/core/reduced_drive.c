@@ -123,6 +123,10 @@ void gm_make_drive(const gm_reduced_map *map, const gm_reduced_params *params,
     d->coupled = map->n_paths == 2 && map->coupling.value != NULL &&
                  !(d->engaged[0] && d->engaged[1]);
     d->w[GM_OUT] = s->w_o;
+    for (int k = 0; k < GM_SHAFTS; k++) {
+        d->prescribed[k] = map->prescribed[k] && (k == GM_OUT || d->own[k]);
+        d->given[k] = 0;
+    }
     d->stiff = 0;
     for (int p = 0; p < d->n_paths; p++) {
         if (d->elastic[p]) {
@@ -142,6 +146,24 @@ void gm_set_span(const gm_reduced_inputs *in, gm_real t, gm_real h, gm_drive *d)
     d->tau[GM_OUT] = in->output_tau + in->output_tau_rate * middle;
     for (int p = 0; p < d->n_paths; p++) {
         d->tau[p] = in->path_tau[p] + in->path_tau_rate[p] * middle;
+    }
+    for (int k = 0; k < GM_SHAFTS; k++) {
+        if (d->prescribed[k]) {
+            d->given[k] = in->a[k];
+            d->tau[k] = 0;
+        }
+    }
+}
+
+void gm_complete_torques(gm_drive *d, const gm_solution *s)
+{
+    if (d->prescribed[GM_OUT]) {
+        d->tau[GM_OUT] = -gm_output_balance(d, &s->terms, &s->point);
+    }
+    for (int p = 0; p < d->n_paths; p++) {
+        if (d->prescribed[p]) {
+            d->tau[p] = -gm_path_balance(d, &s->terms, &s->point, p);
+        }
     }
 }
 

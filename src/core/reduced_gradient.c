@@ -27,6 +27,7 @@ typedef struct change {
     gm_real m[GM_SHAFTS], g[GM_MAX_PATHS]; /* speeds; torques dg */
     gm_real spring[GM_MAX_PATHS];
     gm_real a[GM_SHAFTS], tau_m[GM_MAX_PATHS];
+    gm_real tau[GM_SHAFTS]; /* at the flanges */
     losses terms;
 } change;
 
@@ -83,13 +84,32 @@ static void add_torque(const gm_solution *s, int p, gm_real d_tau, change *c)
     c->terms.out += s->terms.out_tau[p] * d_tau;
 }
 
+/* Flange torques that come in. */
+static void start_torques(const gm_drive *d, const gm_reduced_change *by, change *c)
+{
+    c->tau[GM_OUT] = d->prescribed[GM_OUT] ? 0 : by->output_tau;
+    for (int p = 0; p < d->n_paths; p++) {
+        c->tau[p] = d->prescribed[p] ? 0 : by->path_tau[p];
+    }
+}
+
+/* The torque that a prescribed flange takes: inertia a less what there is without it. */
+static void tell_prescribed(const gm_drive *d, int k, gm_real torque, gm_real inertia,
+                            const gm_reduced_change *by, change *c)
+{
+    if (d->prescribed[k]) {
+        c->a[k] = by->a[k];
+        c->tau[k] = inertia * by->a[k] - torque;
+    }
+}
+
 static void change_path(const gm_drive *d, const gm_solution *s, int p,
                         const gm_reduced_change *by, change *c)
 {
     const gm_path_terms *t = &s->terms.path[p];
     losses *to = &c->terms;
     const gm_real m_o = c->m[GM_OUT];
-    c->g[p] = by->path_tau[p] + (p == 0 ? -c->terms.coupling : c->terms.coupling);
+    c->g[p] = c->tau[p] + (p == 0 ? -c->terms.coupling : c->terms.coupling);
     to->load[p] += t->load_o * m_o;
     to->drag[p] += t->drag_n * c->m[p] + t->drag_o * m_o;
     to->reaction[p] += t->reaction_n * c->m[p] + t->reaction_o * m_o;
@@ -102,10 +122,10 @@ static void change_path(const gm_drive *d, const gm_solution *s, int p,
 }
 
 static void change_accelerations(const gm_drive *d, const gm_solution *s, int still,
-                                 gm_real tau_o, change *c)
+                                 const gm_reduced_change *by, change *c)
 {
     const gm_terms *t = &s->terms;
-    gm_real inertia = d->inertia_own, sum = tau_o - c->terms.out;
+    gm_real inertia = d->inertia_own, sum = c->tau[GM_OUT] - c->terms.out;
     for (int p = 0; p < d->n_paths; p++) {
         const losses *to = &c->terms;
         const gm_real r = d->ratio[p];
@@ -116,10 +136,12 @@ static void change_accelerations(const gm_drive *d, const gm_solution *s, int st
         } else {
             const gm_real torque = c->g[p] - to->drag[p] - c->spring[p];
             sum += d->elastic[p] ? r * (c->spring[p] - to->load[p]) : -to->reaction[p];
-            c->a[p] = s->held[p] ? 0 : torque / d->inertia[p];
+            c->a[p] = gm_moves(d, s, p) ? torque / d->inertia[p] : 0;
+            tell_prescribed(d, p, torque, d->inertia[p], by, c);
         }
     }
-    c->a[GM_OUT] = still ? 0 : sum / inertia;
+    c->a[GM_OUT] = still || d->prescribed[GM_OUT] ? 0 : sum / inertia;
+    tell_prescribed(d, GM_OUT, sum, inertia, by, c);
     for (int p = 0; p < d->n_paths; p++) {
         if (is_rigid(d, p)) {
             c->a[p] = d->ratio[p] * c->a[GM_OUT];
@@ -135,6 +157,7 @@ static change follow(const gm_drive *d, gm_solution *s, int still,
 {
     static const change none = {.m = {0}};
     change c = none;
+    start_torques(d, by, &c);
     terms_here(d, s, by->loss_scale, &c.terms);
     change_speeds(d, s, still, by, &c);
     c.terms.coupling += s->terms.coupling_w * (c.m[0] - c.m[1]);
@@ -142,7 +165,7 @@ static change follow(const gm_drive *d, gm_solution *s, int still,
     for (int p = 0; p < d->n_paths; p++) {
         change_path(d, s, p, by, &c);
     }
-    change_accelerations(d, s, still, by->output_tau, &c);
+    change_accelerations(d, s, still, by, &c);
     return c;
 }
 
@@ -210,7 +233,7 @@ static void change_holding(const gm_drive *d, const gm_solution *s,
                            const gm_reduced_change *by, change *c)
 {
     gm_solution loose = *s;
-    gm_real share, d_applied = by->output_tau;
+    gm_real share, d_applied = c->tau[GM_OUT];
     loose.sign[GM_OUT] = (gm_real)gm_holding(d, s, &loose.terms, &share);
     loose.held[GM_OUT] = 0;
     const losses t = values_of(&loose.terms);
@@ -249,13 +272,14 @@ static void tell_path(const gm_drive *d, const gm_solution *s, int p, const chan
     const losses *t = &c->terms;
     const gm_real d_c = p == 0 ? c->terms.coupling : -c->terms.coupling;
     o->a[p] = c->a[p];
+    o->tau[p] = c->tau[p];
     o->transmitted[p] = c->tau_m[p];
     if (d->elastic[p]) {
         tell_elastic(d, s, p, c, by, o);
     } else if (d->engaged[p]) {
         o->path_loss_torque[p] = t->load[p];
     } else {
-        o->path_loss_torque[p] = s->held[p] ? by->path_tau[p] : t->drag[p] + d_c;
+        o->path_loss_torque[p] = s->held[p] ? c->tau[p] : t->drag[p] + d_c;
         o->output_loss_torque += t->reaction[p];
         o->kinetic_energy += d->inertia[p] * d->w[p] * c->m[p];
     }
@@ -280,6 +304,7 @@ int gm_reduced_derivative(const gm_reduced_map *map, const gm_reduced_params *pa
         change_holding(&d, &s, by, &c);
     }
     o.a_o = c.a[GM_OUT];
+    o.tau[GM_OUT] = c.tau[GM_OUT];
     o.output_loss_torque = c.terms.out;
     o.kinetic_energy = d.inertia[GM_OUT] * d.w[GM_OUT] * c.m[GM_OUT];
     for (int p = 0; p < d.n_paths; p++) {

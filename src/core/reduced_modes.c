@@ -21,6 +21,17 @@ static gm_real slip_of(const gm_reduced_map *map, const gm_motion *s, int p)
     return s->path[p].w - gm_motion_gear(map, s, p)->ratio * s->w_o;
 }
 
+/* The state with the speeds that are prescribed at this instant. */
+static gm_motion present_motion(const gm_reduced_map *map,
+                                const gm_reduced_params *params,
+                                const gm_reduced_inputs *in,
+                                const gm_reduced_state *state)
+{
+    gm_motion s = gm_load_motion(state);
+    gm_take_prescribed(map, params, in, &s);
+    return s;
+}
+
 /* ---- motion in given modes ---- */
 
 static int is_shaft(const gm_drive *d, int k)
@@ -47,8 +58,9 @@ static void make_drive(const gm_reduced_map *map, const gm_reduced_params *param
 static void solve_in_modes(const gm_reduced_modes *modes, gm_drive *d, gm_solution *s)
 {
     for (int k = 0; k < GM_SHAFTS; k++) {
-        s->held[k] = is_shaft(d, k) && modes->direction[k] == 0;
-        s->sign[k] = modes->direction[k] < 0 ? -1 : 1;
+        const int direction = modes->direction[k];
+        s->held[k] = is_shaft(d, k) && direction == 0 && !d->prescribed[k];
+        s->sign[k] = direction < 0 ? -1 : direction > 0 || !d->prescribed[k] ? 1 : 0;
         s->barred[k] = 0;
         d->w[k] = s->held[k] ? 0 : d->w[k];
     }
@@ -62,15 +74,16 @@ void gm_solve_at(const gm_reduced_map *map, const gm_reduced_params *params,
                  const gm_reduced_inputs *in, const gm_reduced_modes *modes,
                  gm_reduced_state *state, gm_drive *d, gm_solution *s)
 {
-    const gm_motion motion = gm_load_motion(state);
+    const gm_motion motion = present_motion(map, params, in, state);
     if (modes) {
         make_drive(map, params, in, modes, &motion, &state->cache, d);
         solve_in_modes(modes, d, s);
-        return;
+    } else {
+        gm_make_drive(map, params, &motion, &state->cache, d);
+        gm_set_span(in, 0, 0, d);
+        gm_solve(d, s);
     }
-    gm_make_drive(map, params, &motion, &state->cache, d);
-    gm_set_span(in, 0, 0, d);
-    gm_solve(d, s);
+    gm_complete_torques(d, s);
 }
 
 int gm_reduced_modes_outputs(const gm_reduced_map *map, const gm_reduced_params *params,
@@ -108,6 +121,9 @@ static gm_real shaft_indicator(const gm_drive *d, const gm_solution *s, int k)
     if (!is_shaft(d, k)) {
         return 1;
     }
+    if (d->prescribed[k] && s->sign[k] == 0) {
+        return GM_INDICATOR_MARGIN - gm_abs(d->w[k]) / GM_NOMINAL_SPEED;
+    }
     if (s->held[k]) {
         const gm_real unit = k == GM_OUT ? GM_NOMINAL_OUT_TORQUE : GM_NOMINAL_PATH_TORQUE;
         return reserve(d, s, k) / unit + GM_INDICATOR_MARGIN;
@@ -123,12 +139,12 @@ int gm_reduced_modes_indicators(const gm_reduced_map *map,
 {
     gm_drive d;
     gm_solution solution;
-    const gm_motion s = gm_load_motion(state);
     const int n = map->n_paths;
     gm_real sum = 0;
     if (!gm_inputs_are_finite(map, inputs)) {
         return GM_FLAG_NOT_FINITE;
     }
+    const gm_motion s = present_motion(map, params, inputs, state);
     gm_solve_at(map, params, inputs, modes, state, &d, &solution);
     for (int p = 0; p < n; p++) {
         z[p] = shaft_indicator(&d, &solution, p);
@@ -154,11 +170,11 @@ int gm_reduced_modes_indicators(const gm_reduced_map *map,
 static void rest(const gm_reduced_map *map, const gm_reduced_params *params,
                  const gm_reduced_modes *modes, gm_motion *s)
 {
-    if ((gm_real)modes->direction[GM_OUT] * s->w_o < 0) {
+    if (!map->prescribed[GM_OUT] && (gm_real)modes->direction[GM_OUT] * s->w_o < 0) {
         gm_bring_to_rest(map, params, GM_OUT, s);
     }
     for (int p = 0; p < map->n_paths; p++) {
-        if (gm_has_own_speed(map, params, s, p) &&
+        if (!map->prescribed[p] && gm_has_own_speed(map, params, s, p) &&
             (gm_real)modes->direction[p] * s->path[p].w < 0) {
             gm_bring_to_rest(map, params, p, s);
         }
@@ -225,9 +241,10 @@ static void find_modes(const gm_reduced_map *map, const gm_reduced_params *param
 static int has_jumped(const gm_reduced_map *map, const gm_reduced_state *before,
                       const gm_motion *s)
 {
-    int jumped = s->w_o != before->w_o || s->loss_energy != before->loss_energy;
+    int jumped = (!map->prescribed[GM_OUT] && s->w_o != before->w_o) ||
+                 s->work != before->work || s->loss_energy != before->loss_energy;
     for (int p = 0; p < map->n_paths; p++) {
-        jumped |= s->path[p].w != before->path[p].w ||
+        jumped |= (!map->prescribed[p] && s->path[p].w != before->path[p].w) ||
                   s->path[p].twist != before->path[p].twist;
     }
     return jumped;
@@ -237,11 +254,12 @@ int gm_reduced_modes_update(const gm_reduced_map *map, const gm_reduced_params *
                             const gm_reduced_inputs *inputs, gm_reduced_state *state,
                             gm_reduced_modes *modes, int *jumped)
 {
-    gm_motion s = gm_load_motion(state);
     gm_reduced_modes m = *modes;
     if (!gm_inputs_are_finite(map, inputs)) {
         return GM_FLAG_NOT_FINITE;
     }
+    gm_motion s = present_motion(map, params, inputs, state);
+    s.work = state->work; /* the solver outside has followed the motion */
     rest(map, params, &m, &s);
     const int flags = command_gears(map, params, inputs, &m, &s);
     close_cones(map, params, &m, &s);

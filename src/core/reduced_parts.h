@@ -88,12 +88,15 @@ typedef struct gm_drive {
     gm_real inertia[GM_SHAFTS];        /* J_p; J_s of the configuration at the output */
     gm_real inertia_own;               /* J_s without the engaged paths' r^2 J_p */
     gm_real w[GM_SHAFTS];              /* at the start of the sub-step */
-    gm_real tau[GM_SHAFTS];            /* flange torques, mean of the sub-step */
-    gm_real brake;                     /* the last step's, a first guess [N.m] */
-    gm_real scale;                     /* loss_scale */
-    gm_real h;                         /* s; 0: at this instant */
-    gm_real mean;  /* mean speeds are those this long into the sub-step [s] */
-    gm_real late;  /* 2 mean/h - 1, of 0 .. 1: 0 but in too long sub-steps */
+    gm_real tau[GM_SHAFTS];    /* flange torques, mean of the sub-step; of prescribed
+                                 flanges once the motion is solved */
+    int prescribed[GM_SHAFTS]; /* moves as it is told, */
+    gm_real given[GM_SHAFTS];  /* with this acceleration */
+    gm_real brake;             /* the last step's, a first guess [N.m] */
+    gm_real scale;             /* loss_scale */
+    gm_real h;                 /* s; 0: at this instant */
+    gm_real mean;              /* mean speeds are those this long into the sub-step [s] */
+    gm_real late;              /* 2 mean/h - 1, of 0 .. 1: 0 but in too long sub-steps */
     gm_real stiff; /* of the elastic paths: sum of k (1/J_p + r2/J_o) [1/s2] */
 } gm_drive;
 
@@ -127,7 +130,8 @@ typedef struct gm_solution {
     gm_real lead; /* when in the sub-step C is read: theta h, see reduced_terms.c */
     gm_point point;
     gm_terms terms;          /* the very torques of the momentum balance */
-    gm_real sign[GM_SHAFTS]; /* direction of rotation assumed: +1, -1 */
+    gm_real sign[GM_SHAFTS]; /* direction of rotation assumed: +1, -1; 0: prescribed and
+                                at rest, no friction acts */
     int held[GM_SHAFTS];     /* 1: at rest, friction holds it */
     int barred[GM_SHAFTS]; /* 1: was let go in this solution and did not move that way */
 } gm_solution;
@@ -208,6 +212,19 @@ int gm_outputs_are_finite(const gm_reduced_outputs *o);
 /** While friction holds the output: the direction it would break away in, the terms there
  *  in *t, and the share of them that it takes. */
 int gm_holding(const gm_drive *d, const gm_solution *s, gm_terms *t, gm_real *share);
+
+/** Speeds that are prescribed; what turns with the output follows. */
+void gm_take_prescribed(const gm_reduced_map *map, const gm_reduced_params *params,
+                        const gm_reduced_inputs *in, gm_motion *s);
+
+/** Whether shaft k moves by the balance of torques on it. */
+static inline int gm_moves(const gm_drive *d, const gm_solution *s, int k)
+{
+    return (k == GM_OUT || d->own[k]) && !d->prescribed[k] && !s->held[k];
+}
+
+/** Torques that prescribed flanges take, from a solution. */
+void gm_complete_torques(gm_drive *d, const gm_solution *s);
 
 /** The part of the state that a step computes, and back. */
 gm_motion gm_load_motion(const gm_reduced_state *state);

@@ -150,13 +150,16 @@ static void first_springs(const gm_drive *d, gm_solution *s, gm_point *at)
 }
 
 /* First place: the output under its flange torques with the losses of the last step, free
- * paths at their present speed; with an elastic path everything at its present speed. */
+ * paths at their present speed; with an elastic path everything at its present speed;
+ * what is prescribed where it will be. */
 static void first_place(const gm_drive *d, gm_solution *s, gm_point *at)
 {
     const int sprung = d->elastic[0] || d->elastic[1];
-    at->a[0] = at->a[1] = at->spring[0] = at->spring[1] = 0;
-    at->a[GM_OUT] = s->held[GM_OUT] || sprung
-                        ? 0
+    at->a[0] = d->given[0];
+    at->a[1] = d->given[1];
+    at->spring[0] = at->spring[1] = 0;
+    at->a[GM_OUT] = !gm_moves(d, s, GM_OUT) || sprung
+                        ? d->given[GM_OUT]
                         : (driving_torque(d) - d->brake) / d->inertia[GM_OUT];
     set_speeds(d, at);
     if (sprung) {
@@ -167,7 +170,7 @@ static void first_place(const gm_drive *d, gm_solution *s, gm_point *at)
 /* The usual case: nothing but the output moves by itself. */
 static int moves_alone(const gm_drive *d, const gm_solution *s)
 {
-    return !s->held[GM_OUT] && !d->own[0] && !d->own[1];
+    return gm_moves(d, s, GM_OUT) && !d->own[0] && !d->own[1];
 }
 
 /* What d_a changes of the terms, and the place it leads to. */
@@ -351,7 +354,7 @@ static int breaks_away(const gm_drive *d, const gm_solution *s, int k)
 
 static int revise(const gm_drive *d, gm_solution *s, int k)
 {
-    if (d->w[k] != 0 || (k != GM_OUT && !d->own[k])) {
+    if (d->w[k] != 0 || d->prescribed[k] || (k != GM_OUT && !d->own[k])) {
         return 0;
     }
     if (s->held[k]) {
@@ -368,12 +371,20 @@ static int revise(const gm_drive *d, gm_solution *s, int k)
     return 1;
 }
 
+/* Direction of a prescribed speed in the middle of the sub-step; 0: it stays at rest. */
+static gm_real prescribed_sign(const gm_drive *d, int k)
+{
+    const gm_real middle = d->w[k] + d->mean * d->given[k];
+    const gm_real heading = middle != 0 ? middle : d->given[k];
+    return heading > 0 ? 1 : heading < 0 ? -1 : 0;
+}
+
 void gm_solve(const gm_drive *d, gm_solution *s)
 {
     int standing = 0;
     for (int k = 0; k < GM_SHAFTS; k++) {
-        s->sign[k] = d->w[k] < 0 ? -1 : 1;
-        s->held[k] = d->w[k] == 0 && (k == GM_OUT || d->own[k]);
+        s->sign[k] = d->prescribed[k] ? prescribed_sign(d, k) : d->w[k] < 0 ? -1 : 1;
+        s->held[k] = d->w[k] == 0 && !d->prescribed[k] && (k == GM_OUT || d->own[k]);
         s->barred[k] = 0;
         standing += s->held[k];
     }

@@ -45,8 +45,9 @@ static gm_real changed(gm_real w, gm_real change, gm_real *rest)
     return next;
 }
 
-static void advance(const gm_drive *d, const gm_solution *solution, gm_motion *s)
+static void advance(gm_drive *d, const gm_solution *solution, gm_motion *s)
 {
+    gm_complete_torques(d, solution);
     const gm_real h = d->h;
     const gm_point *at = &solution->point;
     gm_real power = d->tau[GM_OUT] * at->m[GM_OUT];
@@ -70,9 +71,9 @@ static void advance(const gm_drive *d, const gm_solution *solution, gm_motion *s
 static void event_speeds(const gm_drive *d, const gm_real w[GM_SHAFTS],
                          gm_real e[GM_EVENTS])
 {
-    e[GM_OUT] = w[GM_OUT];
+    e[GM_OUT] = d->prescribed[GM_OUT] ? 0 : w[GM_OUT];
     for (int p = 0; p < GM_MAX_PATHS; p++) {
-        e[p] = d->own[p] ? w[p] : 0;
+        e[p] = d->own[p] && !d->prescribed[p] ? w[p] : 0;
         e[GM_CLOSES + p] = d->free[p] && d->gear[p] ? w[p] - d->ratio[p] * w[GM_OUT] : 0;
     }
 }
@@ -164,91 +165,6 @@ static int locate(const gm_reduced_inputs *in, gm_real t, const gm_real start[GM
     return s.event;
 }
 
-/* Engaged paths that have no speed of their own. */
-static void turn_with_output(const gm_reduced_map *map, const gm_reduced_params *params,
-                             gm_motion *s)
-{
-    for (int p = 0; p < map->n_paths; p++) {
-        if (!gm_has_own_speed(map, params, s, p)) {
-            s->path[p].w = gm_motion_gear(map, s, p)->ratio * s->w_o;
-        }
-    }
-}
-
-/* Inertia j_new joins j, which turns with the output, from rest; returns their sum. */
-static gm_real take_along(gm_real j, gm_real j_new, gm_motion *s)
-{
-    const gm_real j_sum = j + j_new;
-    s->loss_energy += j * j_new / j_sum * s->w_o * s->w_o / 2;
-    s->w_o *= j / j_sum;
-    return j_sum;
-}
-
-/* Part j_part of what turns with the output is left behind at rest. */
-static void leave_behind(gm_real j_part, gm_motion *s)
-{
-    s->loss_energy += j_part * s->w_o * s->w_o / 2;
-}
-
-void gm_release(const gm_reduced_map *map, const gm_reduced_params *params, int p,
-                gm_motion *s)
-{
-    gm_path_state *path = &s->path[p];
-    const gm_gear *gear = gm_motion_gear(map, s, p);
-    const gm_real extra = gear->inertia_extra;
-    s->loss_energy +=
-        gm_is_elastic(params, gear) ? gm_spring_energy(gear, path->twist) : 0;
-    path->twist = 0;
-    path->mode = GM_PATH_NEUTRAL;
-    if (extra > 0) {
-        leave_behind(extra, s);
-    } else if (extra < 0) {
-        take_along(gm_motion_inertia(map, params, s) + extra, -extra, s);
-        turn_with_output(map, params, s);
-    }
-}
-
-/* Path p and the output meet in one impulse that conserves momentum; what kinetic energy
- * goes is lost. The path is engaged from here on. */
-void gm_engage(const gm_reduced_map *map, const gm_reduced_params *params, int p,
-               gm_motion *s)
-{
-    gm_path_state *path = &s->path[p];
-    const gm_gear *gear = gm_motion_gear(map, s, p);
-    const gm_real r = gear->ratio, extra = gear->inertia_extra;
-    const gm_real j_p = map->path[p].inertia;
-    gm_real j_o = gm_motion_inertia(map, params, s);
-    if (extra < 0) {
-        leave_behind(-extra, s);
-        j_o += extra;
-    }
-    const gm_real slip = path->w - r * s->w_o, j_sum = j_o + r * r * j_p;
-    if (slip != 0) {
-        s->loss_energy += j_p * j_o / j_sum * slip * slip / 2;
-        s->w_o += r * j_p * slip / j_sum;
-    }
-    if (extra > 0) {
-        take_along(j_sum, extra, s);
-    }
-    path->mode = GM_PATH_ENGAGED;
-    path->twist = 0;
-    path->w = r * s->w_o;
-    turn_with_output(map, params, s);
-}
-
-void gm_bring_to_rest(const gm_reduced_map *map, const gm_reduced_params *params, int k,
-                      gm_motion *s)
-{
-    if (k == GM_OUT) {
-        s->loss_energy += gm_motion_inertia(map, params, s) * s->w_o * s->w_o / 2;
-        s->w_o = 0;
-        turn_with_output(map, params, s);
-        return;
-    }
-    s->loss_energy += map->path[k].inertia * s->path[k].w * s->path[k].w / 2;
-    s->path[k].w = 0;
-}
-
 /* Treat an event, and what else was passed together with it. */
 static void treat_events(const gm_reduced_map *map, const gm_reduced_params *params,
                          const gm_drive *d, int event, const gm_real start[GM_EVENTS],
@@ -271,11 +187,12 @@ static void treat_events(const gm_reduced_map *map, const gm_reduced_params *par
 static int passes_event(const gm_drive *d, const gm_solution *s)
 {
     const gm_real w_o = d->w[GM_OUT] + d->h * s->point.a[GM_OUT];
-    int passed = d->w[GM_OUT] * w_o < 0;
+    int passed = !d->prescribed[GM_OUT] && d->w[GM_OUT] * w_o < 0;
     for (int p = 0; p < d->n_paths; p++) {
         if (d->own[p]) {
             const gm_real w = d->w[p] + d->h * s->point.a[p];
-            passed |= d->w[p] * w < 0 || d->cone[p] * (w - d->ratio[p] * w_o) < 0;
+            passed |= (!d->prescribed[p] && d->w[p] * w < 0) ||
+                      d->cone[p] * (w - d->ratio[p] * w_o) < 0;
         }
     }
     return passed;

@@ -70,7 +70,7 @@ static void load_terms(const gm_drive *d, int p, gm_real sign_o, const gm_point 
     gm_path_terms *path = &t->path[p];
     path->load = d->scale * sigma * (c->a.c + c->a.cy * v + dx * u);
     path->load_o = speed < 0 ? 0 : d->scale * dx * r;
-    path->load_tau = d->scale * (c->a.cy + c->a.cxy * u);
+    path->load_tau = d->scale * sigma * sigma * (c->a.cy + c->a.cxy * u);
     t->outside |= c->outside;
 }
 
@@ -223,7 +223,7 @@ void gm_terms_at(const gm_drive *d, gm_solution *s, gm_point *at)
         if (d->elastic[p]) {
             gm_pin_terms(d, s, p, s->sign[GM_OUT], at, t);
         }
-        if (d->free[p] && !s->held[p]) {
+        if (d->free[p] && !s->held[p] && s->sign[p] != 0) {
             gm_drag_terms(d, p, s->sign[p], s->sign[GM_OUT], at, t);
         }
     }
@@ -304,7 +304,8 @@ int gm_terms_hold(const gm_drive *d, gm_solution *s, const gm_point *at,
         return 0;
     }
     for (int p = 0; p < d->n_paths; p++) {
-        if (d->free[p] && !s->held[p] && !gm_drag_holds(d, s, p, at, to)) {
+        if (d->free[p] && !s->held[p] && s->sign[p] != 0 &&
+            !gm_drag_holds(d, s, p, at, to)) {
             return 0;
         }
     }
