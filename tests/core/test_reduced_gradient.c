@@ -35,6 +35,20 @@ static int random_gear(unsigned *seed)
     return gears[(int)(hand_random(seed) * 6)];
 }
 
+static double any(unsigned *seed)
+{
+    return hand_between(seed, -1, 1);
+}
+
+/* Every second map has flanges whose motion is prescribed; paths' in fidelity lash only. */
+static void prescribe(unsigned *seed, int fidelity)
+{
+    const int all = fidelity == GM_LASH && hand_random(seed) < 0.5;
+    m.map.prescribed[GM_OUTPUT_SHAFT] = hand_random(seed) < 0.3;
+    m.map.prescribed[0] = all && hand_random(seed) < 0.5;
+    m.map.prescribed[1] = all && hand_random(seed) < 0.5;
+}
+
 /* Engaged paths not in step with the output. */
 static void wind_up(unsigned *seed, gm_reduced_state *s)
 {
@@ -62,12 +76,11 @@ static point random_point(unsigned *seed, int fidelity, double torque)
     if (fidelity == GM_LASH) {
         wind_up(seed, &a.s);
     }
+    for (int k = 0; k < GM_MODE_SHAFTS; k++) {
+        a.in.w[k] = k == GM_OUTPUT_SHAFT ? a.s.w_o : a.s.path[k].w;
+        a.in.a[k] = any(seed) * 100;
+    }
     return a;
-}
-
-static double any(unsigned *seed)
-{
-    return hand_between(seed, -1, 1);
 }
 
 static gm_reduced_change random_change(unsigned *seed)
@@ -77,6 +90,7 @@ static gm_reduced_change random_change(unsigned *seed)
                                   .twist = {1e-3 * any(seed), 1e-3 * any(seed)},
                                   .output_tau = any(seed),
                                   .path_tau = {any(seed), any(seed)},
+                                  .a = {any(seed), any(seed), any(seed)},
                                   .loss_scale = 0.1 * any(seed)};
     return by;
 }
@@ -88,6 +102,10 @@ static point moved(const point *a, const gm_reduced_modes *modes,
     point b = *a;
     b.params.loss_scale += h * by->loss_scale;
     b.in.output_tau += h * by->output_tau;
+    for (int k = 0; k < GM_MODE_SHAFTS; k++) {
+        b.in.a[k] += h * by->a[k];
+        b.in.w[k] += h * (k == GM_OUTPUT_SHAFT ? by->w_o : by->w[k]);
+    }
     b.s.w_o += modes->direction[GM_OUTPUT_SHAFT] ? h * by->w_o : 0;
     for (int p = 0; p < 2; p++) {
         b.in.path_tau[p] += h * by->path_tau[p];
@@ -107,7 +125,7 @@ static gm_reduced_outputs outputs(const gm_reduced_modes *modes, point *a)
     return o;
 }
 
-enum { N_VALUES = 13 };
+enum { N_VALUES = 16 };
 
 static void values_of(const gm_reduced_outputs *o, double v[N_VALUES])
 {
@@ -125,6 +143,9 @@ static void values_of(const gm_reduced_outputs *o, double v[N_VALUES])
         o->elastic_energy,
         o->twist_rate[0],
         o->twist_rate[1],
+        o->tau[0],
+        o->tau[1],
+        o->tau[GM_OUTPUT_SHAFT],
     };
     memcpy(v, list, sizeof list);
 }
@@ -197,6 +218,7 @@ static void check_fidelity(int fidelity)
             hand_spec spec = hand_random_spec(&seed);
             spec.monotone = trial % 40 == 0;
             hand_build(&spec, &m);
+            prescribe(&seed, fidelity);
         }
         point a = random_point(&seed, fidelity, trial % 2 ? 300 : 2);
         const gm_reduced_change by = random_change(&seed);
@@ -207,7 +229,7 @@ static void check_fidelity(int fidelity)
         smooth += check_direction(&modes, &a, &by);
         held += modes.direction[GM_OUTPUT_SHAFT] == 0;
     }
-    assert_true(smooth > trials / 2);
+    assert_true(smooth > trials / 4);
     assert_true(held > trials / 100);
 }
 
