@@ -74,11 +74,11 @@ def points_figure(data):
             hovertemplate=gear_name(n) + ", %{customdata[0]:.0f} rpm, %{customdata[1]:.1f} "
                           "N·m: %{y:.3f} %<extra></extra>"))
     plot.update_xaxes(tickvals=list(range(len(gears))), ticktext=[
-        ordinal(n) for _, n in gears], title="gear; in each from the largest negative "
-        "to the largest positive torque")
+        ordinal(n) for _, n in gears], title="gear")
     plot.add_hline(y=0, line_width=1, line_color="#8a8f98")
     return embed("errors", plot, "Each point is one steady operating point that was drawn "
-                 "at random and is not in the tables.",
+                 "at random and is not in the tables. Within a gear: from the largest negative "
+                 "torque on the left to the largest positive torque on the right.",
                  "Differences of the lost torque between component and detailed model at "
                  "random operating points, one column for each gear.")
 

@@ -51,7 +51,9 @@ def oil_line(parts, y0, y1, z0):
     if level is None or isnan(level) or level < z0 - 30:
         return ""
     return svg.tag("g", svg.title("oil level at rest")
-                   + svg.rect(y0 - 5, y1 + 5, -level, -min(z0, level) + 5), class_="oil")
+                   + svg.rect(y0 - 5, y1 + 5, -level, -min(z0, level) + 5)
+                   + svg.text(y1 + 3, -level - 2, "oil at rest", class_="oil-name"),
+                   class_="oil")
 
 
 def draw_end_view(gearset, label):
@@ -60,7 +62,11 @@ def draw_end_view(gearset, label):
     gears = sorted(section.parts["gears"], key=lambda g: -g["reference_radius_mm"])
     content = oil_line(section.parts, y0, y1, z0)
     content += "".join(draw_gear(section, g) for g in gears)
-    content += "".join(draw_shaft(section, s) for s in section.parts["shafts"])
+    around = {g["shaft"] for g in gears if g["planets"]}  # there, shafts would hide suns
+    hidden = {name for axis in section.layout.axes if around & set(axis.shafts)
+              for name in axis.shafts}
+    content += "".join(draw_shaft(section, s) for s in section.parts["shafts"]
+                       if s["name"] not in hidden)
     box = (y0 - MARGIN, -z1 - MARGIN, y1 - y0 + 2 * MARGIN, z1 - z0 + 2 * MARGIN)
     return svg.tag("svg", content, viewBox=" ".join(svg.number(v) for v in box),
                    role="img", aria_label=label, class_="end-view")

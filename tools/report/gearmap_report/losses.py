@@ -7,6 +7,7 @@ import plotly.graph_objects as go
 from .colours import COMPARED, MUCH_KEPT, MUCH_LOST, NODE, TWO_SIDED, of_gears
 from .efficiency import all_gears
 from .figure import canvas, choice, embed
+from .spread import spread
 from .words import gear_name, number, paragraph, percent, unit
 
 QUANTITIES = (("lost", "lost torque", "N·m"), ("efficiency", "efficiency", "%"),
@@ -118,24 +119,6 @@ def map_figure(data, gears):
 
 
 # ---- all gears side by side ----
-
-def spread(heights, least):
-    """Heights of labels: the given ones, moved apart to be at least so far from each
-    other, in their order."""
-    order = np.argsort(heights)
-    moved = np.array(heights, float)[order]
-    for _ in range(200):
-        gaps = np.diff(moved)
-        if (gaps >= 0.999 * least).all():
-            break
-        for i in np.flatnonzero(gaps < least):
-            push = (least - (moved[i + 1] - moved[i])) / 2
-            moved[i] -= push
-            moved[i + 1] += push
-    out = np.empty_like(moved)
-    out[order] = moved
-    return out
-
 
 def end_labels(gears, x, heights, least, meta, visible=True):
     """The number of each gear beside the end of its line."""

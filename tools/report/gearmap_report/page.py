@@ -27,7 +27,7 @@ def assets(names):
 
 
 def fact(value, words):
-    return "<div><dt>%s</dt><dd>%s</dd></div>" % (words, value)
+    return "<li><b>%s</b> <span>%s</span></li>" % (value, words)
 
 
 def facts(data, results):
@@ -44,7 +44,7 @@ def facts(data, results):
     single = accuracy.numbers(data, results).get("single")
     if single:
         found.append(fact(percent(single[2], 2), "typical difference of the losses"))
-    return '<dl class="facts">%s</dl>' % "".join(found)
+    return '<ul class="facts">%s</ul>' % "".join(found)
 
 
 def head(data, results):

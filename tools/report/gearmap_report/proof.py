@@ -33,14 +33,13 @@ def tiles(cycle):
     found = ""
     for run in cycle["reduced"]:
         faster = cycle["detailed"]["cpu_s"] / run["cpu_s"]
-        errors = run["errors"]
-        found += (
-            '<div class="tile"><h4>%s</h4><dl><div><dt>faster than the detailed model</dt>'
-            "<dd>%s×</dd></div><div><dt>faster than real time</dt><dd>%s×</dd></div><div>"
-            "<dt>difference of the energy lost</dt><dd>%s</dd></div></dl></div>" % (
-                escape(run_name(run)), number(faster, 2),
-                number(run["real_time_factor"], 2),
-                percent(abs(errors["loss_energy_relative"]), 2)))
+        entries = ((number(faster, 2) + "×", "faster than the detailed model"),
+                   (number(run["real_time_factor"], 2) + "×", "faster than real time"),
+                   (percent(abs(run["errors"]["loss_energy_relative"]), 2),
+                    "difference of the energy lost"))
+        found += '<div class="tile"><h3>%s</h3><ul class="facts">%s</ul></div>' % (
+            escape(run_name(run)),
+            "".join("<li><b>%s</b> <span>%s</span></li>" % e for e in entries))
     return '<div class="tiles">%s</div>' % found
 
 
@@ -132,12 +131,12 @@ def section(name, question, body):
 
 def timeline_sections(timelines):
     return (
-        section("faster", "How much faster is it?", timelines.controls()
-                + timelines.processor())
+        '<div class="timelines">' + timelines.controls()
+        + section("faster", "How much faster is it?", timelines.processor())
         + section("same-motion", "Do engine and vehicle move the same?",
                   timelines.motion())
         + section("same-torque", "Are the torques the same?", timelines.torques())
-        + section("error-time", "When is it wrong?", timelines.differences()))
+        + section("error-time", "When is it wrong?", timelines.differences()) + "</div>")
 
 
 def chapter(data, results, timelines):

@@ -6,10 +6,12 @@ data-on, and each gear has a line along its flow; the page's script shows one at
 from math import isnan
 
 from . import svg
+from .spread import spread
 from .unfold import unfold
 
 MARGIN = 14.0  # mm around the drawing
 NAME_ROOM = 4.0
+NAME_STEP = 11.0  # between names
 
 
 def value(number, other):
@@ -95,8 +97,8 @@ class Section:
         self.front.append(self.both(gear["shaft"], x0, x1, inner, outer,
                                     self.gear_tip(gear), gear["name"], class_=kind))
         self.draw_teeth(gear, x0, x1)
-        self.words.append(svg.text((x0 + x1) / 2,
-                                   self.height(gear["shaft"]) - (inner + outer) / 2,
+        middle = outer + 5 if gear["internal"] else (inner + outer) / 2
+        self.words.append(svg.text((x0 + x1) / 2, self.height(gear["shaft"]) - middle,
                                    str(gear["teeth"]), class_="teeth"))
 
     def draw_teeth(self, gear, x0, x1):
@@ -223,15 +225,21 @@ class Section:
         first = self.shaft[flow[0]]
         x = self.flange(first)
         points = [(x, self.offset(flow[0], x))]
-        for name in flow[1:]:
+        for before, name in zip(flow, flow[1:]):
             if name in self.gear:
                 gear = self.gear[name]
                 points.append((gear["position_mm"], points[-1][1]))
                 points.append((gear["position_mm"], self.gear_offset(gear)))
             else:
-                points.append((points[-1][0], self.offset(name, points[-1][0])))
-        last = self.shaft[flow[-1]]
-        points.append((self.flange(last), points[-1][1]))
+                x = points[-1][0]
+                if before in self.shaft:  # through a clutch
+                    x = meeting(self.extent(before), self.extent(name))
+                    points.append((x, points[-1][1]))
+                points.append((x, self.offset(name, x)))
+        ends = self.extent(flow[-1])
+        points.append((max(ends, key=lambda x: abs(x - points[-1][0])),
+                       self.offset(flow[-1], points[-1][0])))
+        points[-2] = (points[-2][0], points[-1][1])
         return points
 
     def flange(self, shaft):
@@ -266,16 +274,14 @@ class Section:
     # ---- all of it ----
 
     def names(self):
-        """Names of the shafts of an axis, at the left of the drawing."""
+        """Names of the shafts at the left of the drawing, near the height of their axis."""
         left = min(self.extent(s)[0] for s in self.shaft)
-        found = ""
-        for axis in self.layout.axes:
-            names = [n for n in axis.shafts]
-            for i, name in enumerate(names):
-                y = -axis.height + (i - (len(names) - 1) / 2) * 11 + 3
-                found += svg.text(left - NAME_ROOM, y, spoken(name), class_="name",
-                                  data_on=self.on(name))
-        return found
+        wanted = sorted((-axis.height + 0.1 * i, name) for axis in self.layout.axes
+                        for i, name in enumerate(axis.shafts))
+        heights = spread([y for y, _ in wanted], NAME_STEP)
+        return "".join(svg.text(left - NAME_ROOM, y + 3, spoken(name), class_="name",
+                                data_on=self.on(name))
+                       for y, (_, name) in zip(heights, wanted))
 
     def axis_lines(self):
         x0 = min(self.extent(s)[0] for s in self.shaft)

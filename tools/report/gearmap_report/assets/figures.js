@@ -24,11 +24,16 @@ function narrow() {
   return window.innerWidth < 640;
 }
 
-/* On a narrow screen a finger scrolls the page, and titles take less room. */
-function fitScreen(layout, data) {
+/* On a narrow screen a finger scrolls the page, titles take less room, and the legend
+ * stands in lines of its own above the figure. */
+function fitScreen(div, layout, data) {
   if (!narrow()) return;
+  const names = new Set(data.filter((t) => t.name && t.visible === true &&
+    t.showlegend !== false && layout.showlegend !== false).map((t) => t.name));
+  layout.height += 19 * Math.max(0, names.size - 2);
+  div.style.height = layout.height + "px";
   layout.dragmode = false;
-  layout.margin = { ...layout.margin, l: 44, r: Math.min(layout.margin.r, 60) };
+  layout.margin = { ...layout.margin, l: 44, t: 16 };
   layout.font.size = 11;
   for (const trace of data)
     if (trace.colorbar)
@@ -42,10 +47,10 @@ function fitScreen(layout, data) {
 async function draw(div) {
   const { data, layout } = JSON.parse(document.getElementById(div.id + "-data").textContent);
   for (const [path, value] of Object.entries(themeOf(layout))) put(layout, path, value);
-  fitScreen(layout, data);
   showChosen(div.id, data);
+  fitScreen(div, layout, data);
   if (div.dataset.kind === "timeline") prepareTimeline(data, layout);
-  await Plotly.newPlot(div, data, layout, CONFIG);
+  await Plotly.newPlot(div, data, layout, narrow() ? { ...CONFIG, displayModeBar: false } : CONFIG);
   if (div.dataset.kind === "timeline") listenToTimeline(div);
 }
 
