@@ -17,7 +17,7 @@ from browser import Browser  # noqa: E402
 STYLE = """
   main > div { display: contents; } main { display: grid; grid-template-columns: 1fr 1fr;
   gap: 14px; max-width: none; padding: 14px; } nav, footer, .lead, .look { display: none; }
-  header { max-width: none; padding: 18px 20px 6px; } section { margin: 0; }
+  .theme { display: none; } header { max-width: none; padding: 18px 20px 6px; } section { margin: 0; }
   section:not(#layout, #one-gear, #parts, #same-torque) { display: none; }
   #one-gear > p, #one-gear > h3 { display: none; } .flow { animation: none !important; }
   .drawings { grid-template-columns: 1fr !important; } .drawings figure:last-child,

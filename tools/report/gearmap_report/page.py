@@ -47,21 +47,24 @@ def facts(data, results):
     return '<ul class="facts">%s</ul>' % "".join(found)
 
 
+THEME = ('<label class="theme">Colours <select id="theme"><option value="auto">as the system'
+         '</option><option value="light">light</option><option value="dark">dark</option>'
+         "</select></label>")
+
+
 def head(data, results):
     return (
-        '<header id="top"><p class="kicker">Gearmap report</p><h1>%s</h1>'
+        '<header id="top"><div class="first-line"><p class="kicker">Gearmap report</p>%s'
+        '</div><h1>%s</h1>'
         '<p class="lead">A detailed model of this gearset was measured point by point, and '
         "a small, fast component was made from the tables. This page shows what the "
         "gearset is, what power it loses, how good the component is, and where it ends."
-        "</p>%s</header>" % (escape(data.title), facts(data, results)))
+        "</p>%s</header>" % (THEME, escape(data.title), facts(data, results)))
 
 
 def navigation():
     links = "".join('<a href="#%s">%s</a>' % chapter for chapter in CHAPTERS)
-    return ('<nav aria-label="Chapters">%s<span class="fill"></span>'
-            '<label class="theme">Colours <select id="theme">'
-            '<option value="auto">as the system</option><option value="light">light'
-            '</option><option value="dark">dark</option></select></label></nav>' % links)
+    return '<nav aria-label="Chapters">%s</nav>' % links
 
 
 def block(name, kind, text):
