@@ -129,9 +129,9 @@ typedef struct gm_reduced_map {
     gm_real inertia_output;  /* J_out [kg.m2] */
     gm_real oil_temperature; /* that the tables hold for [K] */
     /* Flanges, the output last, whose motion is prescribed from outside: speed and
-       acceleration come in, the torque that they take goes out. A path's needs fidelity
-       lash and gears with a stiffness: a rigid path that is engaged turns with the output,
-       whatever is prescribed. */
+       acceleration come in, the torque that they take goes out. A path needs fidelity
+       lash and gears with a stiffness for it: a rigid path that is engaged turns with
+       the output, whatever is prescribed. */
     int prescribed[GM_MAX_PATHS + 1];
 } gm_reduced_map;
 

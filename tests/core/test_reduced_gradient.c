@@ -40,7 +40,7 @@ static double any(unsigned *seed)
     return hand_between(seed, -1, 1);
 }
 
-/* Every second map has flanges whose motion is prescribed; paths' in fidelity lash only. */
+/* Many maps have flanges whose motion is prescribed; paths in fidelity lash only. */
 static void prescribe(unsigned *seed, int fidelity)
 {
     const int all = fidelity == GM_LASH && hand_random(seed) < 0.5;
