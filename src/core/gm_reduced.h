@@ -67,7 +67,7 @@ typedef struct gm_gear {
     /* Between the path's flange and the output, seen from the flange; used in fidelity
        lash. stiffness 0: not known, the path is rigid in that gear. */
     gm_real stiffness; /* k [N.m/rad], both flanks in contact, >= 0 */
-    gm_real damping;   /* d of the contact [N.m.s/rad], >= 0 */
+    gm_real damping;   /* d of the contact at slow slip [N.m.s/rad], >= 0 */
     gm_real lash;      /* whole free angle [rad], >= 0 */
     gm_real film;      /* last part of it before contact, in which the squeezed oil film
                           damps more and more [rad], >= 0 */

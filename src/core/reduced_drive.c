@@ -60,14 +60,17 @@ gm_real gm_cone_torque(const gm_reduced_params *params, int p, gm_real slip)
     return slip > 0 ? capacity : slip < 0 ? -capacity : 0;
 }
 
-static void drive_engaged(const gm_reduced_params *params, const gm_gear *gear, int p,
-                          gm_drive *d)
+static void drive_engaged(const gm_reduced_params *params, const gm_motion *s,
+                          const gm_gear *gear, int p, gm_drive *d)
 {
     const gm_real r = gear->ratio;
     d->elastic[p] = d->own[p] = gm_is_elastic(params, gear);
     d->inertia_own += gear->inertia_extra;
     d->inertia[GM_OUT] += gear->inertia_extra;
-    if (!d->elastic[p]) {
+    if (d->elastic[p]) {
+        d->damping[p] =
+            gm_spring_damping(gear, s->path[p].twist, s->path[p].w - r * s->w_o);
+    } else {
         d->inertia[GM_OUT] += r * r * d->inertia[p];
     }
 }
@@ -82,6 +85,7 @@ static void drive_path(const gm_reduced_map *map, const gm_reduced_params *param
     d->free[p] = d->own[p] = !d->engaged[p];
     d->elastic[p] = 0;
     d->twist[p] = path->twist;
+    d->damping[p] = 0;
     d->gear[p] = gear;
     d->gear_index[p] = path->gear;
     d->ratio[p] = gear ? gear->ratio : 0;
@@ -89,7 +93,7 @@ static void drive_path(const gm_reduced_map *map, const gm_reduced_params *param
     d->w[p] = path->w;
     d->cone[p] = 0;
     if (d->engaged[p]) {
-        drive_engaged(params, gear, p, d);
+        drive_engaged(params, s, gear, p, d);
     } else if (gear) {
         d->cone[p] = gm_cone_torque(params, p, path->w - gear->ratio * s->w_o);
     }
@@ -101,6 +105,7 @@ static void drive_no_path(int p, gm_drive *d)
     d->engaged[p] = d->free[p] = d->elastic[p] = d->own[p] = 0;
     d->gear[p] = NULL;
     d->ratio[p] = d->inertia[p] = d->w[p] = d->tau[p] = d->cone[p] = d->twist[p] = 0;
+    d->damping[p] = 0;
 }
 
 void gm_make_drive(const gm_reduced_map *map, const gm_reduced_params *params,

@@ -29,15 +29,18 @@ typedef struct gm_motion {
 } gm_motion;
 
 /* One way of a spring: the sub-step, the mean slip over it, what is late (0: the middle,
- * 1: all at its end); h = 0: at this instant, not late. */
+ * 1: all at its end), the damping where it begins; h = 0: at this instant, not late. */
 typedef struct gm_stride {
-    gm_real h, slip, late; /* s, rad/s, 0 .. 1 */
+    gm_real h, slip, late, damping; /* s, rad/s, 0 .. 1, N.m.s/rad */
 } gm_stride;
 
 typedef struct gm_spring {
     gm_real torque, slope; /* T at the path's flange [N.m]; dT/dslip */
     gm_real power;         /* lost [W] */
 } gm_spring;
+
+/** Damping of a gear's spring at a twist [rad] and slip [rad/s]: N.m.s/rad. */
+gm_real gm_spring_damping(const gm_gear *gear, gm_real twist, gm_real slip);
 
 /** Mean torque of a gear's spring from a twist on [rad]. */
 gm_spring gm_spring_at(const gm_gear *gear, gm_real twist, const gm_stride *stride);
@@ -81,6 +84,7 @@ typedef struct gm_drive {
     int elastic[GM_MAX_PATHS];         /* engaged, through its spring */
     int own[GM_MAX_PATHS];             /* free or elastic: has a speed of its own */
     gm_real twist[GM_MAX_PATHS];       /* at the start of the sub-step */
+    gm_real damping[GM_MAX_PATHS];     /* of elastic paths, likewise */
     const gm_gear *gear[GM_MAX_PATHS]; /* engaged or being synchronised, else NULL */
     int gear_index[GM_MAX_PATHS];      /* of that gear in its path */
     gm_real ratio[GM_MAX_PATHS];       /* of that gear, else 0 */

@@ -141,7 +141,7 @@ static void first_springs(const gm_drive *d, gm_solution *s, gm_point *at)
 {
     static const gm_spring none = {0, 0, 0};
     for (int p = 0; p < GM_MAX_PATHS; p++) {
-        const gm_stride stride = {d->h, gm_slip(d, at, p), d->late};
+        const gm_stride stride = {d->h, gm_slip(d, at, p), d->late, d->damping[p]};
         s->slip[p] = d->elastic[p] ? stride.slip : 0;
         s->spring[p] =
             d->elastic[p] ? gm_spring_at(d->gear[p], d->twist[p], &stride) : none;

@@ -4,12 +4,18 @@
  * theta, slip s = dtheta/dt, compression e = max(0, |theta| - lash/2) of the flank that
  * carries, u = |theta| - lash/2:
  *
- *   T = sgn(theta) k e + d q(u) s        q = 1 in contact, 0.05 in the middle of the gap
+ *   T = sgn(theta) k e + d q(u) s (1 + y) / (1 + y + y^2),    y = |s| / v
  *
- * In between, over the depth `film` before contact, q rises as 3t^2 - 2t^3: the oil film
- * between the flanks is squeezed. So contact enters without a jump of damping, and a
- * path that carries nothing comes to rest on its flank instead of bouncing on it. The
- * meshes of the detailed gearset have the same law. q is read where a sub-step begins.
+ * with q = 1 in contact, 0.05 in the middle of the gap. In between, over the depth `film`
+ * before contact, q rises as 3t^2 - 2t^3: the oil film between the flanks is squeezed. So
+ * contact enters without a jump of damping, and a path that carries nothing comes to rest
+ * on its flank instead of bouncing on it. The meshes of the detailed gearset have the
+ * same law.
+ *
+ * Beyond the speed v = 1 rad/s damping goes over to a constant torque d v: most of d are
+ * idling gears that hang in the oil of their backlash (model/loose.h). They take part in
+ * small vibrations and are shaken off by large ones. q and the share of v are read where
+ * a sub-step begins, so the damper is linear over it.
  *
  * Over a sub-step of h from theta to theta + h s, F is the mean over the way, [U(theta +
  * h s) - U(theta)] / (h s) with U = k e^2/2: what the spring takes is exactly what it
@@ -69,6 +75,23 @@ static gm_real film_share(const gm_gear *gear, gm_real u, gm_real *slope)
     return FILM_IN_GAP + (1 - FILM_IN_GAP) * t * t * (3 - 2 * t);
 }
 
+#define LOOSE_SPEED GM_NUM(1.0) /* rad/s, v */
+
+/* (1 + y) / (1 + y + y^2) at y = |s| / v, and the derivative of its product with s. */
+static gm_real loose_share(gm_real slip, gm_real *slope)
+{
+    const gm_real y = gm_abs(slip) / LOOSE_SPEED, whole = 1 + y + y * y;
+    *slope = (1 + 2 * y) / (whole * whole);
+    return (1 + y) / whole;
+}
+
+gm_real gm_spring_damping(const gm_gear *gear, gm_real twist, gm_real slip)
+{
+    gm_real unused;
+    const gm_real q = film_share(gear, gm_abs(twist) - gear->lash / 2, &unused);
+    return gear->damping * q * loose_share(slip, &unused);
+}
+
 /* Add the spring of the flank that is loaded where sign * twist > 0. */
 static void add_flank(const gm_gear *gear, const gm_stride *stride, const flank *f,
                       gm_real sign, gm_spring *t)
@@ -89,9 +112,8 @@ gm_spring gm_spring_at(const gm_gear *gear, gm_real twist, const gm_stride *stri
 {
     const gm_real half = gear->lash / 2, way = stride->h * stride->slip;
     const flank up = flank_of(half, twist, way), down = flank_of(half, -twist, -way);
-    gm_real unused;
-    const gm_real d = gear->damping * film_share(gear, gm_abs(twist) - half, &unused);
-    gm_spring t = {d * stride->slip, d, d * stride->slip * stride->slip};
+    const gm_real d = stride->damping, slip = stride->slip;
+    gm_spring t = {d * slip, d, d * slip * slip};
     if (up.e > 0 || up.e_end > 0) {
         add_flank(gear, stride, &up, 1, &t);
     }
@@ -104,14 +126,15 @@ gm_spring gm_spring_at(const gm_gear *gear, gm_real twist, const gm_stride *stri
 gm_spring_gradient gm_spring_gradient_at(const gm_gear *gear, gm_real twist, gm_real slip)
 {
     const gm_real side = twist < 0 ? -1 : 1, u = side * twist - gear->lash / 2;
-    gm_real rise;
+    gm_real rise, slope;
+    const gm_real share = loose_share(slip, &slope);
     const gm_real d = gear->damping * film_share(gear, u, &rise);
     gm_spring_gradient g;
-    rise *= side * gear->damping;
+    rise *= side * gear->damping * share;
     g.torque_twist = rise * slip + (u > 0 ? gear->stiffness : 0);
-    g.torque_slip = d;
+    g.torque_slip = d * slope;
     g.power_twist = rise * slip * slip;
-    g.power_slip = 2 * d * slip;
+    g.power_slip = d * slip * (share + slope);
     return g;
 }
 
@@ -150,7 +173,7 @@ static void read_springs(const gm_drive *d, meeting *m)
 {
     static const gm_spring none = {0, 0, 0};
     for (int p = 0; p < GM_MAX_PATHS; p++) {
-        const gm_stride stride = {d->h, m->slip[p], d->late};
+        const gm_stride stride = {d->h, m->slip[p], d->late, d->damping[p]};
         m->spring[p] =
             d->elastic[p] ? gm_spring_at(d->gear[p], d->twist[p], &stride) : none;
     }

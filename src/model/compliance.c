@@ -6,14 +6,18 @@
  *   1/k = sum F_e^2 / k_e,   lash = sum |F_e| j_e,   film = sum |F_e| e_e
  *
  * and equal dissipation at slow motion, where every row takes its static share of the
- * rate, d / k^2 = sum d_e (F_e / k_e)^2.
+ * rate, d / k^2 = sum d_e (F_e / k_e)^2. Parts that carry nothing add to the damping as
+ * loose.h has it, at the frequency of the path's flange on its stiffness.
  */
+#include "model/loose.h"
 #include "model/nodes.h"
 #include "model/stiffness.h"
 
 #include "base/alloc.h"
 
 #include <math.h>
+
+#define LOOSE_DAMPER 0.8 /* over w J, see loose.h */
 
 typedef struct sums {
     double flexibility, dissipation, lash, film;
@@ -92,6 +96,7 @@ gm_status gm_gearset_compliance(const gm_gearset *gearset, int p, int number,
     gm_configuration_rows rows;
     gm_nodes nodes;
     sums s = {0.0, 0.0, 0.0, 0.0};
+    double path = 0.0, loose = 0.0;
     gm_status status = gm_configuration_rows_make(gearset, gear, &rows, error);
     if (status != GM_OK)
         return status;
@@ -100,9 +105,13 @@ gm_status gm_gearset_compliance(const gm_gearset *gearset, int p, int number,
         status = add_all(&nodes, &rows, p, &s, error);
         gm_nodes_clear(&nodes);
     }
+    if (status == GM_OK)
+        status = gm_loose_inertia(gearset, &rows, p, &path, &loose, error);
     if (status == GM_OK) {
         double k = 1.0 / s.flexibility;
-        *compliance = (gm_compliance){k, k * k * s.dissipation, s.lash, s.film};
+        double frequency = path > 0.0 ? sqrt(k / path) : 0.0;
+        double damping = k * k * s.dissipation + LOOSE_DAMPER * frequency * loose;
+        *compliance = (gm_compliance){k, damping, s.lash, s.film};
     }
     gm_configuration_rows_clear(&rows);
     return status;

@@ -66,8 +66,9 @@ int gm_gearset_drag_lines(const gm_gearset *gearset, int p, int n_max, double *r
 
 /** How path p in gear `number` gives way between its flange and the held output, the
  *  other path in neutral: 1/k = sum F_e^2 / k_e and lash = sum |F_e| j_e over meshes,
- *  locks and compliant shafts with their forces F_e at 1 N.m. GM_ERR_ARGUMENT: the path
- *  has no such gear; GM_ERR_MODEL; GM_ERR_MEMORY. */
+ *  locks and compliant shafts with their forces F_e at 1 N.m; damping of these and of
+ *  what turns idly along. GM_ERR_ARGUMENT: the path has no such gear; GM_ERR_MODEL;
+ *  GM_ERR_MEMORY. */
 GM_NODISCARD gm_status gm_gearset_compliance(const gm_gearset *gearset, int p, int number,
                                              gm_compliance *compliance, gm_error *error);
 

@@ -125,7 +125,7 @@ static void set_gear(gm_map_path *path, int g, int number, double ratio)
                                    .ratio = ratio,
                                    .ratio_given = (double)NAN,
                                    .stiffness = 2e4,
-                                   .damping = 2.0,
+                                   .damping = 6.0,
                                    .lash = 5e-3,
                                    .film = 1e-4};
 }

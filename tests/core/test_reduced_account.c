@@ -141,7 +141,7 @@ static void the_mirrored_gearset_moves_in_mirror_image(void **state)
         gm_reduced_state a = hand_start(&m, 0, 0, w), b = hand_start(&mirror, 0, 0, -w);
         gm_reduced_inputs in = hand_inputs(0, 0);
         /* rattling teeth make little of much: 1e-15 grows by impacts */
-        const int steps = fidelity == GM_LASH ? 40 : STEPS;
+        const int steps = fidelity == GM_LASH ? 25 : STEPS;
         for (int i = 0; i < steps; i++) {
             const double h = any_step(&seed);
             vary_inputs(i, &seed, &in);

@@ -42,8 +42,10 @@ def test_the_components_own_account_closes(results):
 
 
 def test_held_on_the_hill_nothing_creeps(results):
+    """The twisted paths ease the output into rest without a swing back, so that it ends at
+    the edge of what friction holds; there rounding is left, some 1e-18 rad/s."""
     for result in results:
-        assert result["creep"] == 0.0
+        assert result["creep"] < 1e-15
 
 
 def test_the_drive_went_as_meant(results):
