@@ -63,28 +63,35 @@ static int chain(work *w, double limit, char *chosen)
     return n_chosen;
 }
 
+/* The curve of n nodes at x, as a table of one axis or a line of one of several. */
+static double read_curve(const work *w, int n, double x)
+{
+    static const double nowhere[1] = {0.0};
+    gm_cell1 cell_1 = {0};
+    gm_cell2 cell_2 = {0};
+    gm_table1 t1 = {{n, w->node}, w->f, w->c->monotone};
+    gm_table2 t2 = {{1, nowhere}, {n, w->node}, w->f, w->c->monotone};
+    return w->c->alone ? gm_table1_at(&t1, 1, &cell_1, x).value
+                       : gm_table2_at(&t2, 1, &cell_2, 0.0, x).value;
+}
+
 /* Largest error of the interpolation over the chosen nodes, and the sample with it. */
 static double largest_error(const work *w, const char *chosen, int *worst)
 {
-    static const double nowhere[1] = {0.0};
     const gm_curves *c = w->c;
     double largest = 0.0;
-    int n = 0;
     *worst = -1;
     for (int k = 0; k < c->n_curves; k++) {
         const double *f = c->value + (long)k * c->n;
-        n = 0;
+        int n = 0;
         for (int i = 0; i < c->n; i++)
             if (chosen[i]) {
                 w->node[n] = c->x[i];
                 w->f[n++] = f[i];
             }
-        /* as a line of a table of two axes, which limits slopes more than one of one */
-        gm_table2 table = {{1, nowhere}, {n, w->node}, w->f, c->monotone};
-        gm_cell2 cell = {0};
         for (int i = 0; i < c->n; i++) {
-            double e = fabs(gm_table2_at(&table, 1, &cell, 0.0, c->x[i]).value - f[i]);
-            if (!chosen[i] && e > largest) {
+            double e = chosen[i] ? 0.0 : fabs(read_curve(w, n, c->x[i]) - f[i]);
+            if (e > largest) {
                 largest = e;
                 *worst = i;
             }

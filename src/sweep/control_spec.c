@@ -261,6 +261,7 @@ void gm_control_spec(const gm_sweep_plan *plan, const gm_unit *unit,
     memset(spec, 0, sizeof *spec);
     spec->n_axes = table->n_axes;
     spec->n_values = unit->kind == GM_UNIT_LOAD || unit->kind == GM_UNIT_DRAG ? 2 : 1;
+    spec->is_sum = unit->kind == GM_UNIT_LOAD;
     spec->monotone = plan->monotone;
     axes_of(&b);
     tolerances(&b, output);

@@ -100,18 +100,26 @@ static gm_status make_grid(gm_refine *r, gm_error *error)
         const gm_sample *sample = gm_refine_sample(r, x);
         for (int k = 0; k < r->spec.n_values; k++)
             r->grid[k][i] = sample->value[k];
+        if (r->spec.is_sum) /* the same for all nodes of axis 1 */
+            r->rest[i / r->nodes[1].n] = sample->value[0] - sample->value[1];
     }
     return GM_OK;
+}
+
+static double read_one(const gm_refine *r, const double *x, const double *value)
+{
+    gm_table1 t = {axis_of(r, 0), value, r->spec.monotone};
+    gm_cell1 cell = {0};
+    return gm_table1_at(&t, 1, &cell, x[0]).value;
 }
 
 /* As the reduced gearset will read the table; three axes are always linear. */
 static double interpolate(const gm_refine *r, const double *x, int k)
 {
-    if (r->spec.n_axes == 1) {
-        gm_table1 t = {axis_of(r, 0), r->grid[k], r->spec.monotone};
-        gm_cell1 cell = {0};
-        return gm_table1_at(&t, 1, &cell, x[0]).value;
-    }
+    if (r->spec.is_sum && k == 0)
+        return interpolate(r, x, 1) + read_one(r, x, r->rest);
+    if (r->spec.n_axes == 1)
+        return read_one(r, x, r->grid[k]);
     if (r->spec.n_axes == 2) {
         gm_table2 t = {axis_of(r, 0), axis_of(r, 1), r->grid[k], r->spec.monotone};
         gm_cell2 cell = {0};

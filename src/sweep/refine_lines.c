@@ -14,6 +14,9 @@
    line between its ends, in the axis's share of the tolerance: what then lies between
    samples is about a quarter of it. */
 #define HALVE 0.5
+/* So are the intervals beside a sample that is further than this from the line between its
+   neighbours: a kink near it can hide in a middle that happens to lie on the line. */
+#define BENT 1.5
 /* Of the axis's share of the tolerance, for the choice; the rest is for what lies between
    samples and lines. */
 #define CHOOSE 0.85
@@ -81,19 +84,18 @@ static double middle(const gm_refine_samples *s, int i)
     return 0.5 * (s->x[i] + s->x[i + 1]);
 }
 
-/* How far the middle of interval i is from the straight line, on any line, in the axis's
-   share of the tolerance. */
-static double bend(const gm_refine *r, int axis, int i)
+/* How far the curves at x are from straight lines between a and b, on any line, in the
+   axis's share of the tolerance. */
+static double bend(const gm_refine *r, int axis, double a, double x, double b)
 {
-    const gm_refine_samples *s = &r->samples[axis];
     int n = gm_refine_line_count(r, axis);
-    double largest = 0.0;
+    double largest = 0.0, part = (x - a) / (b - a);
     for (int line = 0; line < n; line++)
         for (int k = 0; k < r->spec.n_values; k++) {
-            double f = value_on(r, axis, line, middle(s, i), k);
-            double mean = 0.5 * (value_on(r, axis, line, s->x[i], k) +
-                                 value_on(r, axis, line, s->x[i + 1], k));
-            largest = fmax(largest, fabs(f - mean) / r->state.tolerance[k]);
+            double from = value_on(r, axis, line, a, k),
+                   to = value_on(r, axis, line, b, k);
+            double off = from + part * (to - from) - value_on(r, axis, line, x, k);
+            largest = fmax(largest, fabs(off) / r->state.tolerance[k]);
         }
     return largest * r->spec.n_axes;
 }
@@ -106,14 +108,32 @@ static void halve(const gm_refine *r, int axis, gm_refine_samples *s)
     for (int i = 0; i < s->n; i++) {
         next.open[next.n] = 0;
         next.x[next.n++] = s->x[i];
-        if (!s->open[i] || next.n + (s->n - i) >= GM_REFINE_SAMPLES)
+        if (!s->open[i])
             continue;
-        char open = bend(r, axis, i) > HALVE && s->x[i + 1] - s->x[i] > 2.0 * shortest;
+        double off = bend(r, axis, s->x[i], middle(s, i), s->x[i + 1]);
+        char open = off > HALVE && s->x[i + 1] - s->x[i] > 2.0 * shortest;
         next.open[next.n - 1] = open;
         next.open[next.n] = open;
         next.x[next.n++] = middle(s, i);
     }
     *s = next;
+}
+
+/* When no middle is off any more: open the intervals beside samples that are. */
+static void open_beside_bends(const gm_refine *r, int axis, gm_refine_samples *s)
+{
+    for (int i = 1; i + 1 < s->n; i++)
+        if (bend(r, axis, s->x[i - 1], s->x[i], s->x[i + 1]) > BENT)
+            for (int side = i - 1; side <= i; side++)
+                s->open[side] = s->x[side + 1] - s->x[side] > r->spec.axis[axis].shortest;
+}
+
+static int open_intervals(const gm_refine_samples *s)
+{
+    int n = 0;
+    for (int i = 0; i + 1 < s->n; i++)
+        n += s->open[i];
+    return s->n + n <= GM_REFINE_SAMPLES ? n : 0;
 }
 
 gm_status gm_refine_lines_advance(gm_refine *refine, gm_error *error)
@@ -123,12 +143,12 @@ gm_status gm_refine_lines_advance(gm_refine *refine, gm_error *error)
         gm_refine_samples *s = &refine->samples[a];
         if (s->halving)
             halve(refine, a, s);
-        s->halving = 0;
-        for (int i = 0; i + 1 < s->n && status == GM_OK; i++)
-            if (s->open[i]) {
-                s->halving = 1;
+        if (open_intervals(s) == 0)
+            open_beside_bends(refine, a, s);
+        s->halving = open_intervals(s) > 0;
+        for (int i = 0; i + 1 < s->n && s->halving && status == GM_OK; i++)
+            if (s->open[i])
                 status = want_across(refine, a, middle(s, i), error);
-            }
     }
     return status;
 }
@@ -168,7 +188,8 @@ static gm_status choose(gm_refine *r, int axis, gm_error *error)
     gm_status status = GM_ERR_MEMORY;
     if (value && marks) {
         fill_curves(r, axis, marks, value);
-        gm_curves curves = {s->n, s->x, n_curves, value, marks, r->spec.monotone};
+        gm_curves curves = {
+            s->n, s->x, n_curves, value, marks, r->spec.n_axes == 1, r->spec.monotone};
         status = gm_choose_nodes(&curves, r->spec.axis[axis].n_max, chosen, &n_chosen,
                                  &largest, error);
     } else {

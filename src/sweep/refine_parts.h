@@ -37,7 +37,8 @@ struct gm_refine {
     double largest[GM_REFINE_VALUES]; /* size so far */
     gm_refine_samples samples[GM_MAX_AXES];
     gm_nodes nodes[GM_MAX_AXES];
-    double *grid[GM_REFINE_VALUES]; /* values at the nodes, in tolerances */
+    double *grid[GM_REFINE_VALUES]; /* values at the nodes */
+    double rest[GM_NODES_MAX];      /* of a sum: over axis 0 */
     gm_refine_state state;
 };
 

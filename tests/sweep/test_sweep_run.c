@@ -3,6 +3,7 @@
  * How a sweep runs: threads, steps, progress, interruption, refusals and failures.
  */
 #include "sweep/gm_sweep.h"
+#include "sweep/gm_verify.h"
 
 #include "base/alloc.h"
 #include "map/gm_map_file.h"
@@ -201,15 +202,135 @@ static void an_unwritable_map_is_refused_before_any_point(void **state)
     assert_null(map);
 }
 
+/* ---- axes by error ---- */
+
+static const gm_sweep_options by_error = {.tolerance_share = 0.01, .threads = 2};
+
+/* X of the synthetic gearset is a product of torques, which no table of these sizes meets
+   beside a hundredth everywhere; the loss of one path and the drags are. */
+static void axes_by_error_meet_their_tolerance(void **state)
+{
+    (void)state;
+    const gm_verify_group inside[] = {GM_VERIFY_SINGLE, GM_VERIFY_PRESELECTED,
+                                      GM_VERIFY_DRAG, GM_VERIFY_REACTION};
+    for (int monotone = 0; monotone < 2; monotone++) {
+        gm_sweep_options options = by_error;
+        gm_verify_result result;
+        options.monotone = monotone;
+        gm_map *map = sweep_ok(options);
+        assert_non_null(strstr(map->options, monotone ? "monotone" : "linear"));
+        assert_int_equal(
+            gm_verify_map(&source.plant, map, monotone, 3000, 17, &result, &error),
+            GM_OK);
+        for (size_t g = 0; g < sizeof inside / sizeof inside[0]; g++)
+            if (!(result.max_relative[inside[g]] <= 0.01))
+                fail_msg("%s: %g", gm_verify_group_name(inside[g]),
+                         result.max_relative[inside[g]]);
+        gm_verify_result_clear(&result);
+        gm_map_destroy(map);
+    }
+}
+
+static void axes_by_error_do_not_depend_on_threads(void **state)
+{
+    (void)state;
+    char hash[65] = "";
+    long points = 0;
+    for (int threads = 1; threads <= 3; threads++) {
+        gm_sweep_options options = by_error;
+        gm_sweep_summary summary;
+        gm_map *map = NULL;
+        options.threads = threads;
+        assert_int_equal(sweep(options, NULL, &map, &summary), GM_OK);
+        if (threads > 1) {
+            assert_string_equal(map->content_hash, hash);
+            assert_int_equal(summary.points, points);
+        }
+        memcpy(hash, map->content_hash, sizeof hash);
+        points = summary.points;
+        gm_map_destroy(map);
+    }
+}
+
+/* Interrupted at every stage of the refinement, in turn. */
+static void interrupted_axes_by_error_resume_to_the_same_map(void **state)
+{
+    (void)state;
+    const char *path = "by_error.map";
+    gm_sweep_summary whole_summary, summary;
+    gm_map *whole = NULL, *map = NULL;
+    gm_status status = GM_ERR_INTERRUPTED;
+    int interruptions = 0;
+    long before = 0;
+    assert_int_equal(sweep(by_error, NULL, &whole, &whole_summary), GM_OK);
+    remove_map(path);
+    source.pause = 10000;
+    while (status == GM_ERR_INTERRUPTED && interruptions < 100) {
+        watch w = {.stop_at = 4};
+        status = gm_sweep_run(&source.plant, &by_error, path, look, &w, &map, &summary,
+                              &error);
+        if (status != GM_ERR_INTERRUPTED)
+            break;
+        assert_true(w.last.points_resumed >= before);
+        before = w.last.points_done;
+        interruptions++;
+    }
+    if (status != GM_OK)
+        fail_msg("%s", error.message);
+    assert_true(interruptions > 2);
+    assert_int_equal(summary.points + summary.resumed, whole_summary.points);
+    assert_string_equal(map->content_hash, whole->content_hash);
+    gm_map_destroy(map);
+    gm_map_destroy(whole);
+    remove_map(path);
+}
+
+static void progress_of_axes_by_error_tells_the_worst_error(void **state)
+{
+    (void)state;
+    watch w = {0};
+    gm_map *map = NULL;
+    source.pause = 2000;
+    assert_int_equal(
+        gm_sweep_run(&source.plant, &by_error, NULL, look, &w, &map, NULL, &error),
+        GM_OK);
+    assert_int_equal(w.last.points_done, w.last.points_total);
+    assert_true(w.last.worst_error > 0.0 && w.last.worst_error < 0.2);
+    gm_map_destroy(map);
+}
+
+static void an_absolute_tolerance_takes_fewer_points(void **state)
+{
+    (void)state;
+    const gm_sweep_options fine = {.tolerance_share = 0.001, .threads = 2};
+    const gm_sweep_options coarse = {
+        .tolerance_share = 0.001, .tolerance_torque = 0.05, .threads = 2};
+    gm_sweep_summary summary[2];
+    gm_map *map[2] = {NULL, NULL};
+    assert_int_equal(sweep(fine, NULL, &map[0], &summary[0]), GM_OK);
+    assert_int_equal(sweep(coarse, NULL, &map[1], &summary[1]), GM_OK);
+    assert_true(summary[1].points < summary[0].points);
+    gm_map_destroy(map[0]);
+    gm_map_destroy(map[1]);
+}
+
 /* ---- refusals ---- */
 
 static void options_out_of_range_are_refused(void **state)
 {
     (void)state;
     const gm_sweep_options bad[] = {
-        {.speed_step = -1.0},  {.torque_step = nan("")}, {.speed_max = HUGE_VAL},
-        {.torque_max = -5.0},  {.threads = -1},          {.speed_step = 1e-6},
+        {.speed_step = -1.0},
+        {.torque_step = nan("")},
+        {.speed_max = HUGE_VAL},
+        {.torque_max = -5.0},
+        {.threads = -1},
+        {.speed_step = 1e-6},
         {.torque_step = 1e-6},
+        {.tolerance_share = -0.1},
+        {.tolerance_share = 1.0},
+        {.tolerance_torque = nan("")},
+        {.tolerance_share = 0.01, .speed_step = 50.0},
     };
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         gm_map *map = NULL;
@@ -326,6 +447,11 @@ int main(void)
         cmocka_unit_test_setup(progress_ends_at_the_total, fresh),
         cmocka_unit_test_setup(an_interrupted_sweep_resumes_to_the_same_map, fresh),
         cmocka_unit_test_setup(an_unwritable_map_is_refused_before_any_point, fresh),
+        cmocka_unit_test_setup(axes_by_error_meet_their_tolerance, fresh),
+        cmocka_unit_test_setup(axes_by_error_do_not_depend_on_threads, fresh),
+        cmocka_unit_test_setup(interrupted_axes_by_error_resume_to_the_same_map, fresh),
+        cmocka_unit_test_setup(progress_of_axes_by_error_tells_the_worst_error, fresh),
+        cmocka_unit_test_setup(an_absolute_tolerance_takes_fewer_points, fresh),
         cmocka_unit_test_setup(options_out_of_range_are_refused, fresh),
         cmocka_unit_test_setup(a_gearset_without_a_range_is_refused, fresh),
         cmocka_unit_test_setup(a_ratio_that_disagrees_is_refused_with_both_numbers,
