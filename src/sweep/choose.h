@@ -20,7 +20,7 @@ typedef struct gm_curves {
     int n_curves;
     const double *value; /* [n_curves][n], in units of the tolerance */
     const char *fixed;   /* [n] 1: must be a node; the ends always are */
-    int alone; /* 1: the table has this axis only; cubics of several axes keep slopes lower */
+    int alone;    /* 1: the table has this axis only; in others cubics are less steep */
     int monotone; /* 0: linear interpolation, 1: monotone cubics */
 } gm_curves;
 

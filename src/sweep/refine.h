@@ -49,9 +49,9 @@ typedef struct gm_refine_spec {
     int n_axes;
     gm_refine_axis axis[GM_MAX_AXES];
     int n_values;
-    int is_sum; /* 1: value[0] is read as value[1], of two axes, and the rest, which depends
-                   on axis 0 alone and has a table of its own */
-    double share;                      /* tolerance, of the largest size; or 0 */
+    int is_sum;   /* 1: value[0] is read as value[1], of two axes, and the rest, which
+                   depends on axis 0 alone and has a table of its own */
+    double share; /* tolerance, of the largest size; or 0 */
     double absolute[GM_REFINE_VALUES]; /* tolerance; or 0. The larger of both counts */
     double noise[GM_REFINE_VALUES];    /* no tolerance is below this, > 0 */
     int monotone;                      /* interpolation: 0 linear, 1 monotone cubics */

@@ -14,8 +14,8 @@
    line between its ends, in the axis's share of the tolerance: what then lies between
    samples is about a quarter of it. */
 #define HALVE 0.5
-/* So are the intervals beside a sample that is further than this from the line between its
-   neighbours: a kink near it can hide in a middle that happens to lie on the line. */
+/* So are the intervals beside a sample that is further than this from the line between
+   its neighbours: a kink near it can hide in a middle that happens to lie on the line. */
 #define BENT 1.5
 /* Of the axis's share of the tolerance, for the choice; the rest is for what lies between
    samples and lines. */
