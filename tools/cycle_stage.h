@@ -16,10 +16,10 @@ enum { GM_CYCLE_RUNS = 4 }; /* two fidelities, in two ways */
 #define GM_CYCLE_TOLERANCE 1e-6
 
 typedef struct gm_cycle_settings {
-    const char *cycle;    /* name of a built-in one, or of a file *.csv */
-    const char *vehicle;  /* file; NULL: the reference */
-    const char *fidelity; /* "rigid", "lash" or "both" */
-    double tolerance;     /* relative error of a step */
+    const char *cycle;         /* name of a built-in one, or of a file *.csv */
+    const char *vehicle;       /* file; NULL: the reference */
+    const char *fidelity;      /* "rigid", "lash" or "both" */
+    double tolerance;          /* relative error of a step */
     double communication_step; /* s: in Co-Simulation, too; NAN: not */
     const char *trace;         /* file of the drives over time; NULL: none */
 } gm_cycle_settings;

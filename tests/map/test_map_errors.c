@@ -193,11 +193,12 @@ static void run(const char *sql)
 
 static void a_result_that_is_no_text_is_damage(void **state)
 {
-    static const char *const damage[] = {
-        "UPDATE result SET json = x'7b7d'",
-        "UPDATE result SET json = 'a' || char(0) || 'b'",
+    static const char many[] =
         "WITH RECURSIVE many (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM many LIMIT "
-        "100000) INSERT INTO result SELECT '{}' FROM many"};
+        "100000) INSERT INTO result SELECT '{}' FROM many";
+    static const char *const damage[] = {"UPDATE result SET json = x'7b7d'",
+                                         "UPDATE result SET json = 'a' || char(0) || 'b'",
+                                         many};
     (void)state;
     gm_map *map = fixture_map(&fixture_full);
     file_write_map(map);

@@ -106,7 +106,7 @@ static void rings_down_like_the_detailed(void **state)
     static const double steps[2] = {-2.0, -10.0};
     const int neutral[GM_MAX_INPUT_PATHS] = {0};
     (void)state;
-    rig r = {NULL};
+    rig r = {.gearset = NULL};
     gm_kinematics rest;
     double mean = 0.0;
     int n = 0;
