@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-2-Clause
 # From a bare Debian or Ubuntu machine to a simulated FMU: installs what is missing,
 # builds, reduces the 7-speed dual-clutch example, simulates it, and drives a car over a
-# cycle with the detailed and with the reduced gearset to compare them.
+# cycle with the detailed and with the reduced gearset to compare them, and explains it all
+# on an HTML page.
 set -euo pipefail
 cd "$(dirname "$0")"
 . tools/setup.sh

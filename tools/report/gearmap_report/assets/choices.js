@@ -22,7 +22,9 @@ function choose(group) {
   const div = document.getElementById(group.dataset.figure);
   if (!div.layout) return;
   if (group.dataset.key === "scale") {
-    Plotly.relayout(div, { "yaxis.type": chosenOf(div.id).scale, "yaxis.autorange": true });
+    const scale = chosenOf(div.id).scale;
+    Plotly.relayout(div, { "yaxis.type": scale, "yaxis.autorange": true,
+      "yaxis.dtick": scale === "log" ? 1 : null });
     return;
   }
   const chosen = chosenOf(div.id);
