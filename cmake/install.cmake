@@ -22,7 +22,7 @@ endforeach()
 
 # The sources that a bake ships are installed by fmu/CMakeLists.txt.
 install(DIRECTORY examples/ DESTINATION ${gm_share}/examples
-  FILES_MATCHING PATTERN "*.yaml" PATTERN "*.py")
+  FILES_MATCHING PATTERN "*.yaml" PATTERN "*.py" PATTERN "*.c" PATTERN "*.md")
 
 # A static library is linked with what it uses; the package finds that again.
 get_target_property(gm_uses gm LINK_LIBRARIES)

@@ -196,8 +196,8 @@ static gm_status reduce(const arguments *a, reduction *r, gm_error *error)
     if (status == GM_OK)
         status = gm_file_own_name(a->output, name, error);
     if (status == GM_OK)
-        status = gm_gearset_file_open(a->description, a->sweep.oil_temperature, &r->file,
-                                      error);
+        status = gm_gearset_file_open_any(a->description, a->sweep.oil_temperature,
+                                          &r->file, error);
     if (status == GM_OK)
         status = gm_stage_sweep(&r->file, &settings, a->map, &r->sweep, error);
     if (status == GM_OK)

@@ -81,8 +81,8 @@ static gm_status sweep(const arguments *a, gm_error *error)
     outcome o = {.measured = false};
     gm_status status = gm_file_check_output(a->output, a->description, error);
     if (status == GM_OK)
-        status =
-            gm_gearset_file_open(a->description, a->sweep.oil_temperature, &file, error);
+        status = gm_gearset_file_open_any(a->description, a->sweep.oil_temperature, &file,
+                                          error);
     if (status != GM_OK)
         return status;
     status = sweep_file(a, &file, &o, error);

@@ -155,7 +155,7 @@ static gm_status verify_fmu(const arguments *a, gm_fmu *fmu, gm_error *error)
     double temperature = (double)NAN;
     gm_status status = choose_temperature(a, origin.oil_temperature, &temperature, error);
     if (status == GM_OK)
-        status = gm_gearset_file_open(a->description, temperature, &file, error);
+        status = gm_gearset_file_open_any(a->description, temperature, &file, error);
     if (status != GM_OK)
         return status;
     status = compare(a, fmu, &file, &c, error);

@@ -269,6 +269,10 @@ gm_status gm_stage_cycle(const gm_gearset_file *file, const char *fmu,
     stage->n_paths = file->plant->info.n_paths;
     for (int p = 0; p < stage->n_paths; p++)
         stage->path_name[p] = file->plant->info.path[p].name;
+    if (!file->gearset)
+        return gm_fail(error, GM_ERR_ARGUMENT,
+                       "a model on the test rig cannot drive a cycle; --cycle needs the "
+                       "description of a gearset");
     gm_status status = open_cycle(settings->cycle, &stage->cycle, error);
     if (status == GM_OK)
         status = open_vehicle(settings->vehicle, &vehicle, stage->vehicle_sha256, error);

@@ -6,6 +6,7 @@
 
 #include "base/text.h"
 #include "model/gm_description.h"
+#include "plant/gm_rig_file.h"
 #include "vehicle/gm_vehicle.h"
 
 #include <fcntl.h>
@@ -32,7 +33,8 @@ static void print_overview(FILE *out)
     fputs(
         "  help      print the help of a command (gearmap help COMMAND)\n"
         "            or a file: of descriptions (gearmap help format), of vehicles\n"
-        "            (gearmap help vehicle)\n\n"
+        "            (gearmap help vehicle), of rigs for foreign models (gearmap help "
+        "rig)\n\n"
         "Results go to the standard output (--json for machines), words to the standard "
         "error.\nExit code: 0 done, 1 failed, 2 wrong usage.\n",
         out);
@@ -130,6 +132,10 @@ static int help(int argc, char **argv)
     }
     if (strcmp(argv[0], "vehicle") == 0) {
         gm_vehicle_help(write_text, stdout);
+        return GM_EXIT_DONE;
+    }
+    if (strcmp(argv[0], "rig") == 0) {
+        gm_rig_file_help(write_text, stdout);
         return GM_EXIT_DONE;
     }
     const gm_command *command = find_command(argv[0]);

@@ -87,7 +87,7 @@ gm_status gm_stage_sweep(const gm_gearset_file *file, const gm_sweep_settings *s
     gm_progress_end(&progress);
     stage->path = path;
     stage->tolerance = settings->tolerance;
-    if (status == GM_OK && path)
+    if (status == GM_OK && path && file->description)
         status = gm_keep_description(file->description, path, error);
     return status == GM_ERR_INTERRUPTED ? interrupted(path, error) : status;
 }

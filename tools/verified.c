@@ -16,7 +16,8 @@ gm_status gm_measured_read(const gm_fmu *fmu, const gm_gearset_file *file,
 {
     const gm_fmu_origin origin = gm_fmu_read_origin(fmu);
     gm_measured m;
-    copy(m.description_sha256, sizeof m.description_sha256, file->description->sha256);
+    copy(m.description_sha256, sizeof m.description_sha256,
+         file->plant->info.source_sha256);
     copy(m.made_from_sha256, sizeof m.made_from_sha256, origin.description_sha256);
     copy(m.map_hash, sizeof m.map_hash, origin.map_hash);
     copy(m.guid, sizeof m.guid, origin.guid);

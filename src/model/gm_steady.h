@@ -21,8 +21,10 @@ typedef struct gm_steady_point {
 } gm_steady_point;
 
 typedef struct gm_steady_result {
-    double torque[GM_MAX_FLANGES]; /* N.m into the gearset, given or found */
-    double speed[GM_MAX_FLANGES];  /* rad/s, given or found */
+    double torque[GM_MAX_FLANGES];      /* N.m into the gearset, given or found */
+    double speed[GM_MAX_FLANGES];       /* rad/s, given or found */
+    double uncertainty[GM_MAX_FLANGES]; /* N.m, of the torques: where they were measured
+                                           on a simulated plant, else 0 */
 } gm_steady_result;
 
 /** Kinematics of a configuration. */

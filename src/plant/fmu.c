@@ -50,6 +50,8 @@ static gm_status unpack(gm_fmu *fmu, gm_error *error)
         return status;
     snprintf(path, sizeof path, "%s/modelDescription.xml", fmu->folder);
     status = gm_fmu_description_read(path, fmu->path, &fmu->description, error);
+    if (status == GM_OK && fmu->description.version != 2)
+        status = gm_fail(error, GM_ERR_FORMAT, "%s: is not an FMU of FMI 2.0", fmu->path);
     return status;
 }
 
@@ -63,9 +65,12 @@ static gm_status load(gm_fmu *fmu, fmi2Type type, const char *identifier, gm_err
 static gm_status open_steps(gm_fmu *fmu, gm_error *error)
 {
     gm_status status = unpack(fmu, error);
-    return status == GM_OK
-               ? load(fmu, fmi2CoSimulation, fmu->description.identifier, error)
-               : status;
+    if (status != GM_OK)
+        return status;
+    if (!fmu->description.identifier)
+        return gm_fail(error, GM_ERR_FORMAT, "%s: the FMU does not offer Co-Simulation",
+                       fmu->path);
+    return load(fmu, fmi2CoSimulation, fmu->description.identifier, error);
 }
 
 static gm_status open_exchange(gm_fmu *fmu, gm_error *error)

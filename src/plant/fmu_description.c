@@ -41,15 +41,97 @@ bool gm_fmu_read_reference(const char *text, unsigned *reference)
     return rest && *rest == '\0' && value <= 0xffffffffUL;
 }
 
-static gm_status read_variable(xmlNode *node, const char *archive, fmu_variable *variable,
-                               gm_error *error)
+/* Elements of both versions. */
+static fmu_kind kind_of(const char *name, int version)
+{
+    static const struct {
+        const char *name;
+        fmu_kind kind;
+    } kinds[] = {
+        {"Real", FMU_REAL},      {"Float64", FMU_REAL},    {"Float32", FMU_FLOAT32},
+        {"Int8", FMU_INT8},      {"UInt8", FMU_UINT8},     {"Int16", FMU_INT16},
+        {"UInt16", FMU_UINT16},  {"Integer", FMU_INTEGER}, {"Int32", FMU_INTEGER},
+        {"UInt32", FMU_UINT32},  {"Int64", FMU_INT64},     {"UInt64", FMU_UINT64},
+        {"Boolean", FMU_BOOLEAN}};
+    if (strcmp(name, "Enumeration") == 0)
+        return version == 3 ? FMU_INT64 : FMU_INTEGER;
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
+        if (strcmp(name, kinds[i].name) == 0)
+            return kinds[i].kind;
+    return FMU_OTHER;
+}
+
+static bool says(xmlNode *node, const char *name, const char *value)
+{
+    xmlChar *text = xmlGetProp(node, BAD_CAST name);
+    bool same = text && !xmlStrcmp(text, BAD_CAST value);
+    xmlFree(text);
+    return same;
+}
+
+static fmu_causality causality_of(xmlNode *node)
+{
+    if (says(node, "causality", "input"))
+        return FMU_INPUT;
+    if (says(node, "causality", "output"))
+        return FMU_OUTPUT;
+    return says(node, "causality", "parameter") ? FMU_PARAMETER : FMU_LOCAL;
+}
+
+/* The element that says of which type a variable is: inside it in 2.0, itself in 3.0. */
+static xmlNode *type_node(xmlNode *node, int version)
+{
+    if (version == 3)
+        return node;
+    for (xmlNode *child = node->children; child; child = child->next)
+        if (child->type == XML_ELEMENT_NODE &&
+            kind_of((const char *)child->name, version) != FMU_OTHER)
+            return child;
+    return NULL;
+}
+
+/* An attribute that may be missing; no memory is told apart from that. */
+static gm_status read_optional(xmlNode *node, const char *name, const char *archive,
+                               char **value, gm_error *error)
+{
+    *value = gm_fmu_attribute(node, name);
+    if (*value || !xmlHasProp(node, BAD_CAST name))
+        return GM_OK;
+    return gm_fail(error, GM_ERR_MEMORY, "no memory to read %s", archive);
+}
+
+/* The element with the unit: the variable's own or that of the type it declares. */
+static xmlNode *unit_node(xmlNode *root, xmlNode *type)
+{
+    xmlNode *list = gm_fmu_child(root, "TypeDefinitions"), *found = NULL;
+    xmlChar *declared = xmlGetProp(type, BAD_CAST "declaredType");
+    if (xmlHasProp(type, BAD_CAST "unit") || !list || !declared)
+        list = NULL;
+    for (xmlNode *node = list ? list->children : NULL; node && !found; node = node->next)
+        if (node->type == XML_ELEMENT_NODE && says(node, "name", (const char *)declared))
+            found = node;
+    xmlFree(declared);
+    xmlNode *inner = found ? gm_fmu_child(found, "Real") : NULL;
+    return inner ? inner : found ? found : type;
+}
+
+static gm_status read_variable(xmlNode *root, xmlNode *node, const char *archive,
+                               int version, fmu_variable *variable, gm_error *error)
 {
     char *reference = gm_fmu_attribute(node, "valueReference");
+    xmlNode *type = type_node(node, version);
     variable->name = gm_fmu_attribute(node, "name");
+    variable->kind = type ? kind_of((const char *)type->name, version) : FMU_OTHER;
+    variable->causality = causality_of(node);
+    variable->settable = variable->causality == FMU_PARAMETER ||
+                         (type && xmlHasProp(type, BAD_CAST "start") != NULL);
+    gm_status status = type ? read_optional(unit_node(root, type), "unit", archive,
+                                            &variable->unit, error)
+                            : GM_OK;
     bool good = variable->name && gm_fmu_read_reference(reference, &variable->reference);
     gm_free(reference);
     if (good)
-        return GM_OK;
+        return status;
     return gm_fail(error, GM_ERR_FORMAT,
                    "%s: modelDescription.xml, line %ld: a variable without a name or a "
                    "value reference",
@@ -61,8 +143,8 @@ static int compare(const void *a, const void *b)
     return strcmp(((const fmu_variable *)a)->name, ((const fmu_variable *)b)->name);
 }
 
-static gm_status read_variables(xmlNode *list, const char *archive, fmu_description *d,
-                                gm_error *error)
+static gm_status read_variables(xmlNode *root, xmlNode *list, const char *archive,
+                                fmu_description *d, gm_error *error)
 {
     unsigned long n = xmlChildElementCount(list);
     gm_status status = GM_OK;
@@ -72,10 +154,54 @@ static gm_status read_variables(xmlNode *list, const char *archive, fmu_descript
                        archive);
     for (xmlNode *node = list->children; node && status == GM_OK; node = node->next)
         if (node->type == XML_ELEMENT_NODE)
-            status = read_variable(node, archive, &d->variables[d->n_variables++], error);
+            status = read_variable(root, node, archive, d->version,
+                                   &d->variables[d->n_variables++], error);
     if (status == GM_OK && d->n_variables > 1)
         qsort(d->variables, (size_t)d->n_variables, sizeof *d->variables, compare);
     return status;
+}
+
+static double number_of(xmlNode *node, const char *name, double otherwise)
+{
+    xmlChar *text = node ? xmlGetProp(node, BAD_CAST name) : NULL;
+    double value = otherwise;
+    if (text)
+        (void)gm_text_to_double((const char *)text, &value);
+    xmlFree(text);
+    return value;
+}
+
+static gm_status read_units(xmlNode *root, const char *archive, fmu_description *d,
+                            gm_error *error)
+{
+    xmlNode *list = gm_fmu_child(root, "UnitDefinitions");
+    d->step = number_of(gm_fmu_child(root, "DefaultExperiment"), "stepSize", (double)NAN);
+    if (!list)
+        return GM_OK;
+    d->units = gm_calloc(xmlChildElementCount(list) + 1, sizeof *d->units);
+    if (!d->units)
+        return gm_fail(error, GM_ERR_MEMORY, "no memory for the units of %s", archive);
+    for (xmlNode *node = list->children; node; node = node->next) {
+        xmlNode *base = gm_fmu_child(node, "BaseUnit");
+        if (!base || !xmlHasProp(node, BAD_CAST "name"))
+            continue;
+        fmu_unit *unit = &d->units[d->n_units++];
+        gm_status status = read_optional(node, "name", archive, &unit->name, error);
+        if (status != GM_OK)
+            return status;
+        unit->factor = number_of(base, "factor", 1.0);
+        unit->offset = number_of(base, "offset", 0.0);
+    }
+    return GM_OK;
+}
+
+const fmu_unit *gm_fmu_description_unit(const fmu_description *description,
+                                        const char *name)
+{
+    for (int i = 0; i < description->n_units; i++)
+        if (strcmp(description->units[i].name, name) == 0)
+            return &description->units[i];
+    return NULL;
 }
 
 /* The annotation of the program that made the component; NULL when another did. */
@@ -91,16 +217,6 @@ static xmlNode *find_origin(xmlNode *root)
             return gm_fmu_child(tool, "Gearset");
     }
     return NULL;
-}
-
-/* An attribute that may be missing; no memory is told apart from that. */
-static gm_status read_optional(xmlNode *node, const char *name, const char *archive,
-                               char **value, gm_error *error)
-{
-    *value = gm_fmu_attribute(node, name);
-    if (*value || !xmlHasProp(node, BAD_CAST name))
-        return GM_OK;
-    return gm_fail(error, GM_ERR_MEMORY, "no memory to read %s", archive);
 }
 
 static gm_status read_origin(xmlNode *root, const char *archive, fmu_description *d,
@@ -132,28 +248,40 @@ bool gm_fmu_is_identifier(const char *text)
                strlen(text);
 }
 
+static int version_of(xmlNode *root)
+{
+    if (root && says(root, "fmiVersion", "2.0"))
+        return 2;
+    xmlChar *text = root ? xmlGetProp(root, BAD_CAST "fmiVersion") : NULL;
+    int is_3 = text && !xmlStrncmp(text, BAD_CAST "3.0", 3);
+    xmlFree(text);
+    return is_3 ? 3 : 0;
+}
+
 static gm_status read_root(xmlNode *root, const char *archive, fmu_description *d,
                            gm_error *error)
 {
-    char *version = root ? gm_fmu_attribute(root, "fmiVersion") : NULL;
-    bool is_fmi2 = version && !strcmp(version, "2.0");
-    xmlNode *mode = is_fmi2 ? gm_fmu_child(root, "CoSimulation") : NULL;
-    xmlNode *list = is_fmi2 ? gm_fmu_child(root, "ModelVariables") : NULL;
-    gm_free(version);
-    if (!is_fmi2)
-        return gm_fail(error, GM_ERR_FORMAT, "%s: is not an FMU of FMI 2.0", archive);
-    if (!mode || !list)
-        return gm_fail(error, GM_ERR_FORMAT, "%s: the FMU does not offer Co-Simulation",
+    d->version = version_of(root);
+    if (d->version == 0)
+        return gm_fail(error, GM_ERR_FORMAT, "%s: is not an FMU of FMI 2.0 or 3.0",
                        archive);
-    d->guid = gm_fmu_attribute(root, "guid");
-    d->identifier = gm_fmu_attribute(mode, "modelIdentifier");
-    if (!d->guid || !gm_fmu_is_identifier(d->identifier))
+    xmlNode *mode = gm_fmu_child(root, "CoSimulation");
+    xmlNode *list = gm_fmu_child(root, "ModelVariables");
+    if (!list || (!mode && !gm_fmu_child(root, "ModelExchange")))
+        return gm_fail(error, GM_ERR_FORMAT,
+                       "%s: the FMU offers neither Co-Simulation nor Model Exchange",
+                       archive);
+    d->guid = gm_fmu_attribute(root, d->version == 3 ? "instantiationToken" : "guid");
+    d->identifier = mode ? gm_fmu_attribute(mode, "modelIdentifier") : NULL;
+    if (!d->guid || (mode && !gm_fmu_is_identifier(d->identifier)))
         return gm_fail(error, GM_ERR_FORMAT,
                        "%s: modelDescription.xml has no GUID or no model identifier",
                        archive);
     gm_status status = read_origin(root, archive, d, error);
     if (status == GM_OK)
-        status = read_variables(list, archive, d, error);
+        status = read_units(root, archive, d, error);
+    if (status == GM_OK)
+        status = read_variables(root, list, archive, d, error);
     return status == GM_OK ? gm_fmu_exchange_read(root, archive, d, error) : status;
 }
 
@@ -203,8 +331,13 @@ const fmu_variable *gm_fmu_description_find(const fmu_description *description,
 
 void gm_fmu_description_clear(fmu_description *description)
 {
-    for (int i = 0; i < description->n_variables; i++)
+    for (int i = 0; i < description->n_variables; i++) {
         gm_free(description->variables[i].name);
+        gm_free(description->variables[i].unit);
+    }
+    for (int i = 0; i < description->n_units; i++)
+        gm_free(description->units[i].name);
+    gm_free(description->units);
     gm_free(description->variables);
     for (int i = 0; i < description->n_states; i++) {
         gm_free(description->states[i].name);

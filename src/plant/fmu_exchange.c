@@ -140,6 +140,59 @@ static bool is_true(xmlNode *node, const char *name)
     return yes;
 }
 
+/* ---- FMI 3.0: by value references ---- */
+
+static xmlNode *with_reference(const index_list *list, unsigned reference)
+{
+    unsigned found = 0;
+    for (unsigned long i = 0; i < list->n; i++)
+        if (reference_of(list->node[i], &found) && found == reference)
+            return list->node[i];
+    return NULL;
+}
+
+static xmlNode *referred_to(const index_list *list, xmlNode *node, const char *name)
+{
+    unsigned reference = 0;
+    char *text = gm_fmu_attribute(node, name);
+    bool good = gm_fmu_read_reference(text, &reference);
+    gm_free(text);
+    return good ? with_reference(list, reference) : NULL;
+}
+
+static bool is_named(const xmlNode *node, const char *name)
+{
+    return node->type == XML_ELEMENT_NODE && !xmlStrcmp(node->name, BAD_CAST name);
+}
+
+/* Dependencies are left open: on everything. */
+static gm_status read_states_3(const index_list *list, xmlNode *root, const char *archive,
+                               fmu_description *d, gm_error *error)
+{
+    xmlNode *structure = gm_fmu_child(root, "ModelStructure");
+    if (!structure)
+        return GM_OK;
+    d->states = gm_calloc(xmlChildElementCount(structure) + 1, sizeof *d->states);
+    if (!d->states)
+        return no_memory(archive, error);
+    for (xmlNode *u = structure->children; u; u = u->next) {
+        d->n_indicators += is_named(u, "EventIndicator");
+        if (!is_named(u, "ContinuousStateDerivative"))
+            continue;
+        fmu_state *state = &d->states[d->n_states++];
+        xmlNode *rate = referred_to(list, u, "valueReference");
+        xmlNode *variable = rate ? referred_to(list, rate, "derivative") : NULL;
+        if (!variable || !reference_of(rate, &state->rate_reference) ||
+            !reference_of(variable, &state->reference))
+            return broken(archive, u, "a derivative that belongs to no state", error);
+        state->n_dependencies = -1;
+        state->name = gm_fmu_attribute(variable, "name");
+        if (!state->name)
+            return no_memory(archive, error);
+    }
+    return GM_OK;
+}
+
 gm_status gm_fmu_exchange_read(xmlNode *root, const char *archive, fmu_description *d,
                                gm_error *error)
 {
@@ -161,7 +214,8 @@ gm_status gm_fmu_exchange_read(xmlNode *root, const char *archive, fmu_descripti
     d->n_indicators = (int)n_indicators;
     gm_status status = list_variables(root, archive, &list, error);
     if (status == GM_OK)
-        status = read_states(&list, root, archive, d, error);
+        status = d->version == 3 ? read_states_3(&list, root, archive, d, error)
+                                 : read_states(&list, root, archive, d, error);
     gm_free(list.node);
     return status;
 }

@@ -68,6 +68,12 @@ typedef struct gm_plant_class {
     void (*pattern)(const void *work, int *column_start, int *row);
     void (*jacobian)(void *work, const double *x, double *value);
     void (*result)(const void *work, const double *x, gm_steady_result *result);
+    /* A plant that is measured instead of solved answers a point by experiment; then
+       set_point to result are NULL. What is found has an uncertainty. */
+    gm_status (*measure)(void *work, const gm_steady_point *point,
+                         gm_steady_result *result, gm_error *error);
+    /* What is measured from now on does not depend on what was measured before. */
+    void (*restart)(void *work);
 } gm_plant_class;
 
 typedef struct gm_plant {

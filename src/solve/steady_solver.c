@@ -140,6 +140,8 @@ const gm_plant *gm_steady_solver_plant(const gm_steady_solver *solver)
 void gm_steady_solver_restart(gm_steady_solver *solver)
 {
     solver->warm = 0;
+    if (solver->plant->is->restart)
+        solver->plant->is->restart(solver->work);
 }
 
 void *gm_steady_solver_work(gm_steady_solver *solver, const double **x)
@@ -276,6 +278,8 @@ gm_status gm_steady_solve(gm_steady_solver *solver, const gm_steady_point *point
 {
     gm_steady_solver *s = solver;
     s->point = *point;
+    if (s->plant->is->measure)
+        return s->plant->is->measure(s->work, point, result, error);
     gm_status status = s->plant->is->set_point(s->work, point, error);
     if (status == GM_OK)
         status = configure(s, point, error);
@@ -289,6 +293,7 @@ gm_status gm_steady_solve(gm_steady_solver *solver, const gm_steady_point *point
     s->warm = solved;
     if (!solved)
         return no_convergence(s, error);
+    memset(result, 0, sizeof *result);
     s->plant->is->result(s->work, s->x, result);
     return GM_OK;
 }

@@ -284,7 +284,7 @@ static void descriptions_that_cannot_be_are_refused(void **state)
     assert_int_equal(zip_close(zip), 0);
     assert_refused(at, at->bad, GM_ERR_FORMAT, "modelDescription.xml");
     refuse_description(at, "<fmiModelDescription", "well-formed");
-    refuse_description(at, "<fmiModelDescription fmiVersion=\"3.0\"/>", "FMI 2.0");
+    refuse_description(at, "<fmiModelDescription fmiVersion=\"1.0\"/>", "FMI 2.0");
     refuse_description(at, ROOT "<ModelVariables/></fmiModelDescription>",
                        "Co-Simulation");
     refuse_description(at,

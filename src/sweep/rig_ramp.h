@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * Inertias by ramps on the test rig. A speed is ramped down and up through the same
+ * speed w, at constant torques of the other flanges; what is the same at that speed (the
+ * losses) falls out of the difference:
+ *
+ *   J = (S_up - S_down) / (a_up - a_down),   S: torque at the flange with those of all
+ *                                            flanges that turn with it, referred to it
+ *
+ * Transmitted torque, and with it the load loss, changes along with the acceleration:
+ * at fixed input torque the ramp sees J_out + r^2 J_p (1 -+ dD/dtau), which the mean of a
+ * driving and a driven ramp frees of the slope. The ramp is repeated at half its rate;
+ * the result is that of the slower one and the difference its uncertainty.
+ */
+#ifndef RIG_RAMP_H
+#define RIG_RAMP_H
+
+#include "sweep/rig_run.h"
+
+typedef struct gm_rig_inertia {
+    double value;       /* kg.m2, at the ramped flange */
+    double uncertainty; /* kg.m2 */
+} gm_rig_inertia;
+
+/** Inertia that is felt at flange f when the target is held and the speed of f is ramped
+ *  (an engaged path only where it takes speed). time [s] of one ramp; 0:
+ *  automatic. Errors of gm_rig_run_hold. */
+GM_NODISCARD gm_status gm_rig_ramp_inertia(gm_rig_run *run, const gm_rig_target *target,
+                                           int f, double time, gm_rig_inertia *inertia,
+                                           gm_error *error);
+
+#endif

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: BSD-2-Clause */
+#include "rig_source.h"
+
+#include "base/alloc.h"
+
+#include <math.h>
+
+static const gm_rig *choose_rig(gm_rig_source *s)
+{
+    const gm_rig *rig = gm_foreign_rig(s->foreign);
+    if (rig)
+        return rig;
+    gm_continuous_rig_init(&s->continuous, gm_foreign_continuous(s->foreign),
+                           s->file->experiments.tolerance);
+    return &s->continuous.rig;
+}
+
+static gm_status identify(gm_rig_source *s, gm_error *error)
+{
+    const gm_rig_experiments *e = &s->file->experiments;
+    gm_plant_info info = gm_rig_file_info(s->file, s->gears);
+    gm_rig_settings settings = {.dwell = e->dwell,
+                                .ramp_time = e->ramp_time,
+                                .creep = e->creep,
+                                .time_limit = e->time_limit};
+    gm_error why = {GM_OK, ""};
+    for (int p = 0; p < GM_MAX_INPUT_PATHS; p++)
+        settings.inertia[p] =
+            p < s->file->n_paths ? s->file->paths[p].inertia : (double)NAN;
+    gm_status status =
+        gm_rig_plant_create(choose_rig(s), &info, &settings, &s->plant, &s->report, &why);
+    return status == GM_OK
+               ? status
+               : gm_fail(error, status, "%s: %s", s->file->model_path, why.message);
+}
+
+gm_status gm_rig_source_open(const char *path, double oil_temperature,
+                             gm_rig_source **source, gm_error *error)
+{
+    gm_rig_source *s = gm_calloc(1, sizeof *s);
+    if (!s)
+        return gm_fail(error, GM_ERR_MEMORY, "out of memory");
+    gm_status status = gm_rig_file_read(path, &s->file, error);
+    if (status == GM_OK && !isnan(oil_temperature))
+        s->file->oil_temperature = oil_temperature;
+    if (status == GM_OK)
+        status = gm_foreign_open(s->file, &s->foreign, error);
+    if (status == GM_OK)
+        status = identify(s, error);
+    if (status == GM_OK)
+        *source = s;
+    else
+        gm_rig_source_close(s);
+    return status;
+}
+
+void gm_rig_source_close(gm_rig_source *source)
+{
+    if (!source)
+        return;
+    gm_rig_plant_destroy(source->plant);
+    gm_foreign_close(source->foreign);
+    gm_rig_file_destroy(source->file);
+    gm_free(source);
+}

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: BSD-2-Clause
+ *
+ * From a rig file to a plant: the model opened, identified and ready to be measured.
+ */
+#ifndef RIG_SOURCE_H
+#define RIG_SOURCE_H
+
+#include "plant/gm_foreign.h"
+#include "solve/gm_continuous_rig.h"
+#include "sweep/gm_rig_plant.h"
+
+typedef struct gm_rig_source {
+    gm_rig_file *file;
+    gm_foreign *foreign;
+    gm_continuous_rig continuous;
+    gm_plant_gear gears[GM_MAX_INPUT_PATHS][32];
+    gm_plant *plant;
+    gm_rig_report report;
+} gm_rig_source;
+
+/** oil_temperature [K]; NAN: the rig file's. */
+GM_NODISCARD gm_status gm_rig_source_open(const char *path, double oil_temperature,
+                                          gm_rig_source **source, gm_error *error);
+void gm_rig_source_close(gm_rig_source *source);
+
+#endif
