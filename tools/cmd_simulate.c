@@ -156,7 +156,7 @@ static gm_status write_rows(gm_transient *transient, gm_recording *recording,
     double shown_at = 0.0, step = s->asked->output_step;
     long n = (long)ceil(s->duration / step - 1e-9);
     gm_status status = GM_OK;
-    gm_progress_begin(&progress);
+    gm_progress_begin(&progress, "simulate", s->name);
     for (long i = 0; i <= n && status == GM_OK; i++) {
         double t = from + fmin(multiple(i, step), s->duration);
         status = gm_transient_advance(transient, t, error);

@@ -5,12 +5,14 @@
 #include "commands.h"
 
 #include "files.h"
+#include "progress.h"
 #include "stages.h"
 
 typedef struct arguments {
     const char *description, *output;
     gm_sweep_settings sweep;
     const char *interpolation;
+    const char *progress;
     int json;
 } arguments;
 
@@ -24,6 +26,7 @@ static const gm_option options[] = {
     {.kind = GM_OPTION_TEXT, .name = "interpolation", .value = "NAME",
      .fallback = "linear", .offset = offsetof(arguments, interpolation),
      .help = "what the tolerance is for: linear, or monotone as in bake"},
+    GM_PROGRESS_OPTION(arguments),
     GM_JSON_OPTION(arguments),
 };
 // clang-format on
@@ -98,7 +101,8 @@ static int run(const void *given)
 {
     const arguments *a = given;
     gm_error error = {0};
-    if (!gm_stage_knows_interpolation(a->interpolation))
+    if (!gm_stage_knows_interpolation(a->interpolation) ||
+        !gm_progress_choose(a->progress))
         return GM_EXIT_USAGE;
     return gm_command_end(sweep(a, &error), &error);
 }

@@ -101,7 +101,7 @@ static gm_status drive(const gm_trip_parts *parts, double tolerance, int order_m
     watch w = {.what = what, .shown = -1.0};
     const gm_record_progress progress = {show, &w};
     const gm_transient_options options = {.tolerance = tolerance, .order_max = order_max};
-    gm_progress_begin(&w.bar);
+    gm_progress_begin(&w.bar, "drive", NULL);
     gm_status status =
         gm_record_create(parts, &options, SAMPLE_STEP, &progress, record, error);
     gm_progress_end(&w.bar);

@@ -31,14 +31,15 @@ static void put_string(FILE *out, const char *text)
 
 static void next_line(gm_json *json)
 {
-    fprintf(json->out, "\n%*s", 2 * json->depth, "");
+    if (!json->one_line)
+        fprintf(json->out, "\n%*s", 2 * json->depth, "");
 }
 
 static void begin_member(gm_json *json, const char *key)
 {
     bool *filled = &json->filled[json->depth - 1];
     if (*filled)
-        fputc(',', json->out);
+        fputs(json->one_line ? ", " : ",", json->out);
     *filled = true;
     next_line(json);
     if (key) {
@@ -61,6 +62,12 @@ void gm_json_start(gm_json *json, FILE *out)
     memset(json, 0, sizeof *json);
     json->out = out;
     open_level(json, '{', '}');
+}
+
+void gm_json_start_line(gm_json *json, FILE *out)
+{
+    gm_json_start(json, out);
+    json->one_line = true;
 }
 
 void gm_json_end(gm_json *json)

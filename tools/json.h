@@ -16,10 +16,13 @@ typedef struct gm_json {
     int depth;
     char close[GM_JSON_DEPTH];  /* the bracket that ends each open level */
     bool filled[GM_JSON_DEPTH]; /* the level has a member already */
+    bool one_line;              /* all on one line */
 } gm_json;
 
 /** Start a document: one object. */
 void gm_json_start(gm_json *json, FILE *out);
+/** The same, all of it on one line. */
+void gm_json_start_line(gm_json *json, FILE *out);
 /** End the document; all levels but the outermost must be closed. */
 void gm_json_finish(gm_json *json);
 

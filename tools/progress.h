@@ -1,9 +1,15 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * What a sweep shows while it runs, and how a stage is stopped. The bar appears only on a
- * terminal. SIGINT and SIGTERM ask a sweep to stop at its next report; the other stages
- * end first and clean up behind them. A second signal ends the program at once (a sweep's
- * journal survives that too).
+ * What a command shows while it runs, and how a stage is stopped.
+ *
+ *   auto   a bar on a terminal: what runs, how much is done, rate, time left, worst error
+ *          so far; nothing at all where the standard error is no terminal
+ *   json   lines of JSON on the standard error, for programs (README, docs/progress.md)
+ *   none   nothing
+ *
+ * SIGINT and SIGTERM ask a sweep to stop at its next report; the other stages end first
+ * and clean up behind them. A second signal ends the program at once (a sweep's journal
+ * survives that too).
  */
 #ifndef PROGRESS_H
 #define PROGRESS_H
@@ -13,22 +19,45 @@
 #include <stdbool.h>
 
 typedef struct gm_progress {
-    bool shown; /* something stands on the line */
+    const char *stage, *name; /* what runs, and on what; name may be NULL */
+    double started, shown_at; /* s of a steady clock; shown_at < 0: never */
+    double worst;             /* error of a sweep, NAN: none */
+    int width;                /* of what stands on the terminal's line */
 } gm_progress;
 
-/** From here to gm_progress_end signals stop the stage instead of the program. */
-void gm_progress_begin(gm_progress *progress);
+/** Choose how progress is shown, for the whole program: "auto", "json" or "none". False:
+ *  there is no such way; then a sentence stands on the standard error. */
+bool gm_progress_choose(const char *mode);
 
-/** Draw a bar for the part that is done, 0 to 1, and words. */
+/** From here to gm_progress_end signals stop the stage instead of the program. The texts
+ *  have to stay until the end. */
+void gm_progress_begin(gm_progress *progress, const char *stage, const char *name);
+
+/** Show the part that is done, 0 to 1, and words. */
 void gm_progress_show(gm_progress *progress, double part, const char *words);
 
 /** A gm_sweep_report; user is the gm_progress. */
 int gm_progress_report(void *user, const gm_sweep_progress *state);
+
+/** The words about a sweep: points, rate, time left, worst error. */
+void gm_progress_words(const gm_sweep_progress *state, char *words, int size);
+
+/** A time as people say it: "12 s", "3 min 05 s", "2 h 10 min". */
+void gm_progress_time(double seconds, char *text, int size);
 
 /** Clear the bar, give signals their default effect back. */
 void gm_progress_end(gm_progress *progress);
 
 /** True when a signal has asked to stop since gm_progress_begin. */
 bool gm_progress_interrupted(void);
+
+/* The option, for commands whose arguments have the field `const char *progress`. */
+// clang-format off
+#define GM_PROGRESS_OPTION(T)                                                            \
+    {.kind = GM_OPTION_TEXT, .name = "progress", .value = "WAY", .fallback = "auto",     \
+     .offset = offsetof(T, progress),                                                    \
+     .help = "what is shown on the standard error meanwhile: auto, a bar if it is a "    \
+             "terminal; json, a line of JSON now and then; none"}
+// clang-format on
 
 #endif

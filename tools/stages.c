@@ -81,7 +81,7 @@ gm_status gm_stage_sweep(const gm_gearset_file *file, const gm_sweep_settings *s
     gm_status status = check_steps(file->plant, settings, error);
     if (status != GM_OK)
         return status;
-    gm_progress_begin(&progress);
+    gm_progress_begin(&progress, "sweep", file->plant->info.name);
     status = gm_sweep_run(file->plant, &options, path, gm_progress_report, &progress,
                           &stage->map, &stage->summary, error);
     gm_progress_end(&progress);
@@ -147,7 +147,7 @@ gm_status gm_stage_bake(const gm_map *map, const gm_results *results,
     options.n_results = results->n;
     options.results = results->list;
     gm_progress progress;
-    gm_progress_begin(&progress);
+    gm_progress_begin(&progress, "bake", map->name);
     status = gm_bake_fmu2(map, &options, path, &stage->summary, error);
     gm_progress_end(&progress);
     stage->elapsed = gm_stage_clock() - start;
@@ -169,7 +169,7 @@ gm_status gm_stage_verify(const gm_plant *plant, gm_fmu *fmu, int points, int se
         return status;
     const gm_reduced_probe interface = gm_fmu_probe_interface(probe);
     gm_progress progress;
-    gm_progress_begin(&progress);
+    gm_progress_begin(&progress, "verify", plant->info.name);
     status = gm_verify_steady(plant, &interface, points, (uint64_t)seed, &stage->result,
                               error);
     gm_progress_end(&progress);

@@ -232,4 +232,4 @@ def test_progress_on_a_terminal_only(tmp_path):
         pass
     os.close(main)
     assert process.wait(timeout=60) == 0
-    assert re.search(rb"\r\[#*\.*\] +\d+ %  \d+\.\d+ of 10 s", shown)
+    assert re.search(rb"\rsimulate dct7 \[#*\.*\] +\d+ %  \d+\.\d+ of 10 s", shown)

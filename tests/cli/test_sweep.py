@@ -114,7 +114,7 @@ def test_a_progress_bar_is_drawn_on_a_terminal_only(tmp_path):
             break
         seen += block
     assert process.wait(timeout=60) == 0
-    assert re.search(rb"\r\[#*\.*\] +\d+ %  \d+ of \d+ points, \d+/s", seen)
+    assert re.search(rb"\rsweep dct7 \[#*\.*\] +\d+ %  \d+ of \d+ points, \d+/s", seen)
     assert seen.endswith(b"\r")
     quiet = succeeds("sweep", EXAMPLE, "-o", tmp_path / "n.map", *COARSE)
     assert quiet.stderr == ""
