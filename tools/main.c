@@ -18,7 +18,7 @@
 
 static const gm_command *const commands[] = {
     &gm_command_check,  &gm_command_sweep,    &gm_command_bake,   &gm_command_reduce,
-    &gm_command_verify, &gm_command_simulate, &gm_command_report,
+    &gm_command_verify, &gm_command_simulate, &gm_command_report, &gm_command_batch,
 };
 enum { N_COMMANDS = sizeof commands / sizeof commands[0] };
 

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 #include "progress.h"
 
-#include "json.h"
-
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -18,6 +16,8 @@
 
 /* How progress is shown: a matter of the process, set once before any stage. */
 static enum { MODE_AUTO, MODE_JSON, MODE_NONE } mode;
+static gm_progress_listener listener;
+static void *listener_user;
 
 /* The one thing that a signal handler may touch. */
 static volatile sig_atomic_t stop_requested;
@@ -39,6 +39,13 @@ bool gm_progress_choose(const char *word)
         }
     fprintf(stderr, "gearmap: there is no progress '%s' (only auto, json, none)\n", word);
     return false;
+}
+
+void gm_progress_tell(gm_progress_listener told, void *user)
+{
+    mode = MODE_NONE;
+    listener = told;
+    listener_user = user;
 }
 
 /* ---- signals ---- */
@@ -150,6 +157,16 @@ static void write_event(const gm_progress *p, const char *event)
         end_line(&l);
 }
 
+void gm_progress_line(const gm_progress *p, const char *event,
+                      void (*members)(const void *data, gm_json *json), const void *data)
+{
+    json_line l;
+    if (mode != MODE_JSON || !begin_line(&l, p, event))
+        return;
+    members(data, &l.json);
+    end_line(&l);
+}
+
 /* ---- stages ---- */
 
 static void draw_stage(gm_progress *p)
@@ -167,6 +184,8 @@ void gm_progress_begin(gm_progress *p, const char *stage, const char *name)
     if (has_bar())
         draw_stage(p);
     write_event(p, "begin");
+    if (listener)
+        listener(listener_user, stage, -1.0);
 }
 
 void gm_progress_end(gm_progress *p)
@@ -284,6 +303,9 @@ int gm_progress_report(void *user, const gm_sweep_progress *state)
         gm_progress_words(s, words, sizeof words);
         draw_bar(p, (double)s->points_done / (double)s->points_total, words);
     }
+    if (listener && s->points_total > 0)
+        listener(listener_user, p->stage,
+                 (double)s->points_done / (double)s->points_total);
     bool last = s->points_done == s->points_total;
     if (mode == MODE_JSON && (is_due(p, 2.0 * SHOWN_EVERY) || last))
         write_sweep_line(p, s);

@@ -14,6 +14,7 @@
 #ifndef PROGRESS_H
 #define PROGRESS_H
 
+#include "json.h"
 #include "sweep/gm_sweep.h"
 
 #include <stdbool.h>
@@ -28,6 +29,15 @@ typedef struct gm_progress {
 /** Choose how progress is shown, for the whole program: "auto", "json" or "none". False:
  *  there is no such way; then a sentence stands on the standard error. */
 bool gm_progress_choose(const char *mode);
+
+/** Show nothing, but call this with every stage that begins (part < 0) and with the part
+ *  that is done of it. */
+typedef void (*gm_progress_listener)(void *user, const char *stage, double part);
+void gm_progress_tell(gm_progress_listener listener, void *user);
+
+/** Where lines of JSON are wanted: one of this event, with members of its own. */
+void gm_progress_line(const gm_progress *progress, const char *event,
+                      void (*members)(const void *data, gm_json *json), const void *data);
 
 /** From here to gm_progress_end signals stop the stage instead of the program. The texts
  *  have to stay until the end. */
