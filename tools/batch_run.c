@@ -258,6 +258,8 @@ static void stop_children(run *r)
 /* A sweep is most of a reduction's work, the rest a little. */
 static double part_of(const worker *w)
 {
+    if (w->ended)
+        return 1.0;
     if (strcmp(w->last.stage, "sweep") == 0)
         return 0.7 * (w->last.part > 0.0 ? w->last.part : 0.0);
     if (strcmp(w->last.stage, "bake") == 0)

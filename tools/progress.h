@@ -4,7 +4,7 @@
  *
  *   auto   a bar on a terminal: what runs, how much is done, rate, time left, worst error
  *          so far; nothing at all where the standard error is no terminal
- *   json   lines of JSON on the standard error, for programs (README, docs/progress.md)
+ *   json   lines of JSON on the standard error, for programs: docs/progress.md
  *   none   nothing
  *
  * SIGINT and SIGTERM ask a sweep to stop at its next report; the other stages end first
