@@ -7,6 +7,7 @@
 #include "batch.h"
 
 #include "base/alloc.h"
+#include "plant/gm_rig_file.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -72,7 +73,7 @@ static bool ends_with(const char *name, const char *ending)
     return n > m && strcmp(name + n - m, ending) == 0;
 }
 
-/* A gearset has shafts; a folder may hold other files in YAML too, such as vehicles. What
+/* A gearset has shafts, and a rig file is taken as well; a folder may hold other files in YAML too, such as vehicles. What
  * cannot be read is taken: its reduction says why. */
 static bool has_shafts(const char *path)
 {
@@ -105,7 +106,8 @@ static gm_status add_entry(gm_batch *batch, const char *folder, const char *name
         return gm_fail(error, GM_ERR_IO, "%s: the path is too long", folder);
     if (stat(path, &info) == 0 && S_ISDIR(info.st_mode))
         return GM_OK;
-    return has_shafts(path) ? add(batch, path, error) : pass_over(batch, path, error);
+    bool taken = has_shafts(path) || gm_rig_file_is_one(path);
+    return taken ? add(batch, path, error) : pass_over(batch, path, error);
 }
 
 static gm_status read_folder(const char *folder, gm_batch *batch, gm_error *error)

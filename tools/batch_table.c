@@ -6,6 +6,7 @@
 
 #include "base/csv.h"
 #include "base/sha256.h"
+#include "plant/gm_rig_file.h"
 
 #include <errno.h>
 #include <string.h>
@@ -52,13 +53,27 @@ static void hash_settings(gm_sha256 *sum, const gm_reduce_settings *s)
     gm_sha256_text(sum, s->bake.compiler ? s->bake.compiler : "");
 }
 
-/* A description that cannot be read has no key: its reduction says why. */
+/* Hash of a description, or of a rig file and its model. */
+static gm_status hash_source(const char *path, char text[GM_SHA256_TEXT], gm_error *error)
+{
+    gm_rig_file *rig = NULL;
+    if (!gm_rig_file_is_one(path))
+        return gm_sha256_file(path, text, error);
+    gm_status status = gm_rig_file_read(path, &rig, error);
+    if (status != GM_OK)
+        return status;
+    memcpy(text, rig->sha256, GM_SHA256_TEXT);
+    gm_rig_file_destroy(rig);
+    return GM_OK;
+}
+
+/* What cannot be read has no key: its reduction says why. */
 static gm_status find_key(gm_variant *v, const char *program,
                           const gm_reduce_settings *common, gm_error *error)
 {
     char content[GM_SHA256_TEXT];
     gm_error unreadable;
-    if (gm_sha256_file(v->description, content, &unreadable) != GM_OK)
+    if (hash_source(v->description, content, &unreadable) != GM_OK)
         return GM_OK;
     gm_sha256 *sum = gm_sha256_create();
     if (!sum)
