@@ -59,9 +59,9 @@ typedef struct gm_batch {
     double elapsed; /* s */
 } gm_batch;
 
-/** The variants of a folder (its files .yaml and .yml that describe gearsets) or of a list
- *  (a text file, one path in a line, from where the list is; # begins a comment), each
- *  once. GM_ERR_IO, GM_ERR_FORMAT: there are none; GM_ERR_MEMORY. */
+/** The variants of a folder (its files .yaml and .yml that describe gearsets or rigs) or
+ *  of a list (a text file, one path in a line, from where the list is; # begins a
+ *  comment), each once. GM_ERR_IO, GM_ERR_FORMAT: there are none; GM_ERR_MEMORY. */
 GM_NODISCARD gm_status gm_batch_find(const char *source, gm_batch *batch,
                                      gm_error *error);
 void gm_batch_clear(gm_batch *batch);

@@ -73,8 +73,8 @@ static bool ends_with(const char *name, const char *ending)
     return n > m && strcmp(name + n - m, ending) == 0;
 }
 
-/* A gearset has shafts, and a rig file is taken as well; a folder may hold other files in YAML too, such as vehicles. What
- * cannot be read is taken: its reduction says why. */
+/* A gearset has shafts, and a rig file is taken as well; a folder may hold other files in
+ * YAML too, such as vehicles. What cannot be read is taken: its reduction says why. */
 static bool has_shafts(const char *path)
 {
     char line[256];

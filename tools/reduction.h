@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * A reduction: sweep, bake and verify in one go. The component gets its name only when all
- * three are done: until then it stands beside under a name of this process.
+ * A reduction: sweep, bake and verify in one go. The component gets its name only when
+ * all three are done: until then it stands beside under a name of this process.
  */
 #ifndef REDUCTION_H
 #define REDUCTION_H
@@ -28,8 +28,8 @@ typedef struct gm_reduction {
     double start, elapsed, driving; /* s; driving: in the cycle alone */
 } gm_reduction;
 
-/** Do it; clear *reduction in any case. On failure no output is left, finished points of a
- *  map stay in its journal. Errors of the stages. */
+/** Do it; clear *reduction in any case. On failure no output is left, finished points of
+ *  a map stay in its journal. Errors of the stages. */
 GM_NODISCARD gm_status gm_reduce(const gm_reduce_settings *settings,
                                  gm_reduction *reduction, gm_error *error);
 void gm_reduction_clear(gm_reduction *reduction);
