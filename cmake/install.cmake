@@ -27,7 +27,7 @@ install(DIRECTORY examples/ DESTINATION ${gm_share}/examples
 # A static library is linked with what it uses; the package finds that again.
 get_target_property(gm_uses gm LINK_LIBRARIES)
 set(GM_PACKAGE_DEPENDENCIES "")
-foreach(package SUNDIALS SQLite3 OpenMP)
+foreach(package SUNDIALS SQLite3 Threads)
   string(REGEX REPLACE "[0-9]+$" "" namespace ${package})
   if("${gm_uses}" MATCHES "${namespace}::")
     string(APPEND GM_PACKAGE_DEPENDENCIES "find_dependency(${package})\n")

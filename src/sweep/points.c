@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 #include "sweep/memo.h"
 
+#include <pthread.h>
 #include <string.h>
 #include <time.h>
 
@@ -18,6 +19,7 @@ typedef struct record {
 } record;
 
 struct gm_points {
+    pthread_mutex_t memo_lock, journal_lock, watch_lock;
     gm_memo *memo;
     gm_journal *journal; /* NULL: in memory only */
     long resumed;
@@ -57,6 +59,21 @@ static gm_steady_point key_of(const gm_steady_point *point)
 
 /* ---- the points ---- */
 
+static gm_points *create(void)
+{
+    gm_points *made = gm_calloc(1, sizeof *made);
+    if (!made)
+        return NULL;
+    (void)pthread_mutex_init(&made->memo_lock, NULL);
+    (void)pthread_mutex_init(&made->journal_lock, NULL);
+    (void)pthread_mutex_init(&made->watch_lock, NULL);
+    made->memo = gm_memo_create(sizeof(gm_steady_point), sizeof(gm_steady_result));
+    if (made->memo)
+        return made;
+    gm_points_close(made, true);
+    return NULL;
+}
+
 static gm_status no_memory(gm_error *error)
 {
     return gm_fail(error, GM_ERR_MEMORY, "no memory for the points of the sweep");
@@ -81,12 +98,8 @@ static gm_status take_up(gm_points *p, gm_error *error)
 gm_status gm_points_open(const char *path, const gm_map *map, gm_points **points,
                          gm_error *error)
 {
-    gm_points *made = gm_calloc(1, sizeof *made);
-    gm_status status = GM_OK;
-    if (made)
-        made->memo = gm_memo_create(sizeof(gm_steady_point), sizeof(gm_steady_result));
-    if (!made || !made->memo)
-        status = no_memory(error);
+    gm_points *made = create();
+    gm_status status = made ? GM_OK : no_memory(error);
     if (status == GM_OK && path)
         status = gm_journal_open(path, map, sizeof(record), &made->journal, error);
     if (status == GM_OK && path)
@@ -113,6 +126,9 @@ void gm_points_close(gm_points *points, bool keep)
         return;
     gm_journal_close(points->journal, keep);
     gm_memo_destroy(points->memo);
+    (void)pthread_mutex_destroy(&points->memo_lock);
+    (void)pthread_mutex_destroy(&points->journal_lock);
+    (void)pthread_mutex_destroy(&points->watch_lock);
     gm_free(points);
 }
 
@@ -125,9 +141,9 @@ void gm_points_set_watch(gm_points *points, gm_points_watch watch, void *user)
 
 long gm_points_count(gm_points *points)
 {
-    long n;
-#pragma omp critical(gm_sweep_points)
-    n = gm_memo_count(points->memo);
+    (void)pthread_mutex_lock(&points->memo_lock);
+    long n = gm_memo_count(points->memo);
+    (void)pthread_mutex_unlock(&points->memo_lock);
     return n;
 }
 
@@ -138,27 +154,23 @@ long gm_points_resumed(const gm_points *points)
 
 static int find(gm_points *points, const gm_steady_point *key, gm_steady_result *result)
 {
-    const gm_steady_result *found;
-#pragma omp critical(gm_sweep_points)
-    {
-        found = gm_memo_find(points->memo, key);
-        if (found)
-            *result = *found;
-    }
+    (void)pthread_mutex_lock(&points->memo_lock);
+    const gm_steady_result *found = gm_memo_find(points->memo, key);
+    if (found)
+        *result = *found;
+    (void)pthread_mutex_unlock(&points->memo_lock);
     return found != NULL;
 }
 
 static gm_status add(gm_points *points, const record *solved, gm_error *error)
 {
-    gm_steady_result *result;
-#pragma omp critical(gm_sweep_points)
-    {
-        result = gm_memo_find(points->memo, &solved->point);
-        if (!result)
-            result = gm_memo_add(points->memo, &solved->point);
-        if (result)
-            *result = solved->result;
-    }
+    (void)pthread_mutex_lock(&points->memo_lock);
+    gm_steady_result *result = gm_memo_find(points->memo, &solved->point);
+    if (!result)
+        result = gm_memo_add(points->memo, &solved->point);
+    if (result)
+        *result = solved->result;
+    (void)pthread_mutex_unlock(&points->memo_lock);
     return result ? GM_OK : no_memory(error);
 }
 
@@ -189,13 +201,14 @@ void gm_point_solver_destroy(gm_point_solver *solver)
 
 gm_status gm_point_solver_flush(gm_point_solver *solver, gm_error *error)
 {
-    gm_status status = GM_OK;
+    gm_points *points = solver->points;
     int n = solver->n;
     solver->n = 0;
-    if (n == 0 || !solver->points->journal)
+    if (n == 0 || !points->journal)
         return GM_OK;
-#pragma omp critical(gm_sweep_journal)
-    status = gm_journal_put(solver->points->journal, solver->block, n, error);
+    (void)pthread_mutex_lock(&points->journal_lock);
+    gm_status status = gm_journal_put(points->journal, solver->block, n, error);
+    (void)pthread_mutex_unlock(&points->journal_lock);
     return status;
 }
 
@@ -204,11 +217,12 @@ static gm_status look(gm_points *points, double t, gm_error *error)
     gm_status status = GM_OK;
     if (!points->watch)
         return GM_OK;
-#pragma omp critical(gm_sweep_watch)
+    (void)pthread_mutex_lock(&points->watch_lock);
     if (t - points->watched >= WATCH_INTERVAL) {
         points->watched = t;
         status = points->watch(points->user, error);
     }
+    (void)pthread_mutex_unlock(&points->watch_lock);
     return status;
 }
 

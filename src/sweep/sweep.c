@@ -2,11 +2,12 @@
  *
  * Scheduling of a sweep: phase by phase, threads take items from a list (points that the
  * error control wants, units of it to advance, rows of the tables), each with a solver of
- * its own. Built without OpenMP the same code runs on one thread.
+ * its own.
  */
 #include "sweep/gm_sweep.h"
 
 #include "base/alloc.h"
+#include "base/team.h"
 #include "sweep/checks.h"
 #include "sweep/control.h"
 #include "sweep/experiments.h"
@@ -29,7 +30,7 @@ typedef struct run {
     gm_map *map;
     gm_points *points;
     gm_control *control; /* NULL: the axes are given */
-    int threads;         /* 0: as many as there are */
+    int threads;
     gm_sweep_report report;
     void *user;
     double started; /* s */
@@ -128,49 +129,63 @@ static void describe(const gm_plant *plant, const gm_sweep_options *options, gm_
 /* A kind of work: item i of it, with a thread's solver. */
 typedef gm_status (*work)(run *r, int i, gm_point_solver *solver, gm_error *error);
 
-static void keep_failure(run *r, int item, gm_status status, const gm_error *error)
+typedef struct list {
+    run *r;
+    work what;
+    int n;
+    atomic_int next;
+    pthread_mutex_t failure; /* of r's failed_item, status and error */
+} list;
+
+static void keep_failure(list *l, int item, gm_status status, const gm_error *error)
 {
-#pragma omp critical(gm_sweep_failure)
+    run *r = l->r;
+    (void)pthread_mutex_lock(&l->failure);
     if (r->status == GM_OK || item < r->failed_item) {
         r->failed_item = item;
         r->status = status;
         r->error = *error;
     }
+    (void)pthread_mutex_unlock(&l->failure);
     atomic_store(&r->stop, 1);
 }
 
-/* One thread's share of the items. */
-static void do_share(run *r, work what, int n)
+static void do_items(list *l, gm_point_solver *solver)
 {
+    int i;
+    while ((i = atomic_fetch_add(&l->next, 1)) < l->n && !atomic_load(&l->r->stop)) {
+        gm_error error = {GM_OK, ""};
+        gm_status status = l->what(l->r, i, solver, &error);
+        if (status != GM_OK)
+            keep_failure(l, i, status, &error);
+    }
+}
+
+/* One thread's share of the items. */
+static void do_share(void *user)
+{
+    list *l = user;
     gm_point_solver *solver = NULL;
     gm_error error = {GM_OK, ""};
-    gm_status status = gm_point_solver_create(r->points, r->plan->plant, &solver, &error);
+    gm_status status =
+        gm_point_solver_create(l->r->points, l->r->plan->plant, &solver, &error);
+    if (status != GM_OK) {
+        keep_failure(l, 0, status, &error);
+        return;
+    }
+    do_items(l, solver);
+    status = gm_point_solver_flush(solver, &error);
     if (status != GM_OK)
-        keep_failure(r, 0, status, &error);
-#pragma omp for schedule(dynamic, 1)
-    for (int i = 0; i < n; i++) {
-        gm_error why = {GM_OK, ""};
-        status = atomic_load(&r->stop) ? GM_OK : what(r, i, solver, &why);
-        if (status != GM_OK)
-            keep_failure(r, i, status, &why);
-    }
-    if (solver) {
-        status = gm_point_solver_flush(solver, &error);
-        if (status != GM_OK)
-            keep_failure(r, n, status, &error);
-    }
+        keep_failure(l, l->n, status, &error);
     gm_point_solver_destroy(solver);
 }
 
 static gm_status do_all(run *r, work what, int n)
 {
-    if (r->threads > 0) {
-#pragma omp parallel num_threads(r->threads)
-        do_share(r, what, n);
-    } else {
-#pragma omp parallel
-        do_share(r, what, n);
-    }
+    list l = {.r = r, .what = what, .n = n};
+    (void)pthread_mutex_init(&l.failure, NULL);
+    gm_team_run(r->threads < n ? r->threads : n, do_share, &l);
+    (void)pthread_mutex_destroy(&l.failure);
     return r->status;
 }
 
@@ -322,7 +337,7 @@ static gm_status prepare(run *r, const gm_plant *plant, const gm_sweep_options *
     gm_status status = check_options(options, error);
     if (status != GM_OK)
         return status;
-    r->threads = options->threads;
+    r->threads = options->threads > 0 ? options->threads : gm_team_all();
     r->map = gm_map_create();
     if (!r->map)
         return gm_fail(error, GM_ERR_MEMORY, "no memory for the map");

@@ -34,7 +34,7 @@ LIBRARIES = {
     r"libfyaml\.h": {"model"},
     r"libxml/": {"bake", "plant"},
     r"zip\.h": {"bake", "plant"},
-    r"omp\.h": {"base", "sweep"},
+    r"pthread\.h": {"base", "plant", "sweep"},
     r"(md5|sha2|sha512)\.h": {"base"},
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s+([<"])([^">]+)[">]', re.M)

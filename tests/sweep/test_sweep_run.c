@@ -264,9 +264,9 @@ static void interrupted_axes_by_error_resume_to_the_same_map(void **state)
     long before = 0;
     assert_int_equal(sweep(by_error, NULL, &whole, &whole_summary), GM_OK);
     remove_map(path);
-    source.pause = 10000;
-    while (status == GM_ERR_INTERRUPTED && interruptions < 100) {
-        watch w = {.stop_at = 4};
+    source.pause = 100000; /* 0.1 s, the time between reports, takes some runs */
+    while (status == GM_ERR_INTERRUPTED && interruptions < 2000) {
+        watch w = {.stop_at = 1};
         status = gm_sweep_run(&source.plant, &by_error, path, look, &w, &map, &summary,
                               &error);
         if (status != GM_ERR_INTERRUPTED)
