@@ -41,7 +41,7 @@ typedef struct functions {
     EXCHANGE(FIELD)
     FIELD(DoStep)
 #undef FIELD
-        fmi2CallbackFunctions callbacks;
+    fmi2CallbackFunctions callbacks;
 } functions;
 
 static functions *of(const fmi_instance *it)
