@@ -214,7 +214,7 @@ gm_status gm_compile(const gm_compiler *compiler, const char *folder, int n,
     snprintf(library, sizeof library, "%s/%s", folder, output);
     gm_status status = compile_once(compiler, together, folder, n, sources, output, text,
                                     sizeof text, &code, error);
-    if (status == GM_OK && code != 0)
+    if (status == GM_OK && code != 0 && code < 128) /* 128 + signal: it was ended */
         status = compile_once(compiler, NULL, folder, n, sources, output, text,
                               sizeof text, &code, error);
     if (status != GM_OK)
