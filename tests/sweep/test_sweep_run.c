@@ -252,6 +252,13 @@ static void axes_by_error_do_not_depend_on_threads(void **state)
     }
 }
 
+/* Stop after some points of the run's own. */
+static int stop_after_a_thousand(void *user, const gm_sweep_progress *progress)
+{
+    *(gm_sweep_progress *)user = *progress;
+    return progress->points_done - progress->points_resumed >= 1000;
+}
+
 /* Interrupted at every stage of the refinement, in turn. */
 static void interrupted_axes_by_error_resume_to_the_same_map(void **state)
 {
@@ -260,20 +267,16 @@ static void interrupted_axes_by_error_resume_to_the_same_map(void **state)
     gm_sweep_summary whole_summary, summary;
     gm_map *whole = NULL, *map = NULL;
     gm_status status = GM_ERR_INTERRUPTED;
-    int interruptions = 0;
-    long before = 0;
+    int interruptions = -1;
+    gm_sweep_progress last = {0};
     assert_int_equal(sweep(by_error, NULL, &whole, &whole_summary), GM_OK);
     remove_map(path);
-    source.pause = 100000; /* 0.1 s, the time between reports, takes some runs */
-    while (status == GM_ERR_INTERRUPTED && interruptions < 2000) {
-        watch w = {.stop_at = 1};
-        status = gm_sweep_run(&source.plant, &by_error, path, look, &w, &map, &summary,
-                              &error);
-        if (status != GM_ERR_INTERRUPTED)
-            break;
-        assert_true(w.last.points_resumed >= before);
-        before = w.last.points_done;
-        interruptions++;
+    source.pause = 100000; /* 1000 points take longer than the time between reports */
+    for (; status == GM_ERR_INTERRUPTED; interruptions++) {
+        long before = last.points_done;
+        status = gm_sweep_run(&source.plant, &by_error, path, stop_after_a_thousand,
+                              &last, &map, &summary, &error);
+        assert_true(last.points_resumed >= before);
     }
     if (status != GM_OK)
         fail_msg("%s", error.message);
