@@ -75,6 +75,7 @@ static void destroy(void *user)
         return;
     gm_fmu_close(m->fmu);
     gm_free(m->column);
+    gm_free(m->x);
     gm_free(m->indicator);
     gm_free(m->above);
     gm_free(m->state_reference);
@@ -89,11 +90,12 @@ static gm_status make_room(gm_fmu_motion *m, gm_error *error)
     m->n_events = d->n_indicators;
     size_t n = (size_t)m->n + 1, n_events = (size_t)m->n_events + 1;
     m->column = gm_calloc(n, sizeof *m->column);
+    m->x = gm_calloc(n, sizeof *m->x);
     m->indicator = gm_calloc(n_events, sizeof *m->indicator);
     m->above = gm_calloc(n_events, sizeof *m->above);
     m->state_reference = gm_calloc(n, sizeof *m->state_reference);
     m->rate_reference = gm_calloc(n, sizeof *m->rate_reference);
-    if (!m->column || !m->indicator || !m->above || !m->state_reference ||
+    if (!m->column || !m->x || !m->indicator || !m->above || !m->state_reference ||
         !m->rate_reference)
         return gm_fail(error, GM_ERR_MEMORY, "no memory to run %s", m->fmu->path);
     for (int i = 0; i < m->n; i++) {
@@ -124,6 +126,13 @@ static gm_status create(const void *plant, void **made, gm_error *error)
 
 /* ---- events ---- */
 
+/* What the FMU was told last holds no more. */
+static void forget(gm_fmu_motion *m)
+{
+    m->x[0] = (double)NAN;
+    m->indicators_known = 0;
+}
+
 static fmi2Status note_indicators(gm_fmu_motion *m)
 {
     fmi2Status status = m->fmu->library.GetEventIndicators(
@@ -137,6 +146,7 @@ static fmi2Status note_indicators(gm_fmu_motion *m)
 static gm_status settle(gm_fmu_motion *m, double *x, gm_error *error)
 {
     const fmu_library *l = &m->fmu->library;
+    forget(m);
     fmi2EventInfo info = {.newDiscreteStatesNeeded = fmi2True};
     gm_status status = GM_OK;
     for (int i = 0; i < EVENT_ROUNDS && info.newDiscreteStatesNeeded && status == GM_OK;
@@ -165,6 +175,7 @@ static int set_torques(gm_fmu_motion *m, const gm_motion_input *input)
     if (memcmp(m->input.torque, input->torque, n * sizeof *input->torque) == 0)
         return 0;
     memcpy(m->input.torque, input->torque, sizeof m->input.torque);
+    m->indicators_known = 0;
     return m->fmu->library.SetReal(m->fmu->component, m->tau, n, input->torque) >
            fmi2Warning;
 }
@@ -219,10 +230,19 @@ static gm_status start(void *user, const gm_motion_input *input, const double *s
 
 /* ---- continuous time ---- */
 
+/* Setting anything makes the FMU forget what it has found for its present point. */
 int gm_fmu_motion_put(gm_fmu_motion *m, const gm_motion_input *input, const double *x)
 {
-    return set_torques(m, input) || m->fmu->library.SetContinuousStates(
-                                        m->fmu->component, x, (size_t)m->n) > fmi2Warning;
+    size_t n = (size_t)m->n, size = n * sizeof *x;
+    if (set_torques(m, input))
+        return 1;
+    if (memcmp(m->x, x, size) == 0)
+        return 0;
+    forget(m);
+    if (m->fmu->library.SetContinuousStates(m->fmu->component, x, n) > fmi2Warning)
+        return 1;
+    memcpy(m->x, x, size);
+    return 0;
 }
 
 int gm_fmu_motion_rates(void *user, const gm_motion_input *input, const double *x,
@@ -236,14 +256,21 @@ int gm_fmu_motion_rates(void *user, const gm_motion_input *input, const double *
     return status <= fmi2Warning ? 0 : status == fmi2Discard ? 1 : -1;
 }
 
+/* After each step the solver asks for the indicators, and handle for the same again. */
 static int events(void *user, const gm_motion_input *input, const double *x, double *g)
 {
     gm_fmu_motion *m = user;
+    size_t n = (size_t)m->n_events;
     if (gm_fmu_motion_put(m, input, x))
         return 1;
-    fmi2Status status =
-        m->fmu->library.GetEventIndicators(m->fmu->component, g, (size_t)m->n_events);
-    return status <= fmi2Warning ? 0 : 1;
+    if (!m->indicators_known) {
+        if (m->fmu->library.GetEventIndicators(m->fmu->component, m->indicator, n) >
+            fmi2Warning)
+            return 1;
+        m->indicators_known = 1;
+    }
+    memmove(g, m->indicator, n * sizeof *g);
+    return 0;
 }
 
 static int crossed(const gm_fmu_motion *m)

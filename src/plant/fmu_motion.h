@@ -26,6 +26,8 @@ typedef struct gm_fmu_motion {
     unsigned energy[N_VIEW]; /* loss power, kinetic and elastic energy */
     int speed[GM_MAX_FLANGES];
     gm_motion_input input; /* as the FMU knows it */
+    double *x;             /* [n], likewise; x[0] not a number: not known */
+    int indicators_known;  /* those in indicator belong to input and x */
     double *column;        /* [n] */
     double *indicator;     /* [n_events] */
     int *above;            /* [n_events] side of each indicator in the present mode */

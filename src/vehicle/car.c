@@ -47,15 +47,17 @@ static void clutch_at(const gm_trip_parts *parts, const gm_car_time *now, const 
                       int p, gm_car_point *point)
 {
     const gm_vehicle *v = parts->vehicle;
-    double slope;
-    double capacity = gm_clutch_capacity(v, x[GM_CAR_ENGINE_SPEED], &slope);
-    double s = tanh((x[GM_CAR_DRUM_SPEED] - point->speed[1 + p]) / v->clutch_slip);
-    double share = now->share[p];
-    double by_slip = share * capacity * (1.0 - s * s) / v->clutch_slip;
+    double slip = x[GM_CAR_DRUM_SPEED] - point->speed[1 + p];
+    const gm_clutch_grip grip =
+        gm_clutch_grip_at(v, x[GM_CAR_ENGINE_SPEED], x[GM_CAR_ENGINE_TORQUE], slip);
+    double s = tanh(slip / v->clutch_slip), share = now->share[p];
+    double by_slip =
+        share * (grip.value * (1.0 - s * s) / v->clutch_slip + grip.by_slip * s);
     double *by = point->clutch_by[p];
     memset(by, 0, GM_CAR_COLUMNS * sizeof *by);
-    point->clutch[p] = share * capacity * s;
-    by[GM_CAR_ENGINE_SPEED] = share * slope * s;
+    point->clutch[p] = share * grip.value * s;
+    by[GM_CAR_ENGINE_SPEED] = share * grip.by_w * s;
+    by[GM_CAR_ENGINE_TORQUE] = share * grip.by_torque * s;
     by[GM_CAR_DRUM_SPEED] = by_slip;
     by[GM_CAR_DYNAMIC + 1 + p] = -by_slip;
 }
@@ -240,9 +242,9 @@ enum {
 
 unsigned gm_car_torque_columns(int flange)
 {
-    return flange == 0
-               ? SHAFT_TORQUE
-               : BIT(GM_CAR_ENGINE_SPEED) | BIT(GM_CAR_DRUM_SPEED) | FLANGE(flange);
+    return flange == 0 ? SHAFT_TORQUE
+                       : BIT(GM_CAR_ENGINE_SPEED) | BIT(GM_CAR_ENGINE_TORQUE) |
+                             BIT(GM_CAR_DRUM_SPEED) | FLANGE(flange);
 }
 
 unsigned gm_car_rate_columns(int row)
@@ -252,7 +254,8 @@ unsigned gm_car_rate_columns(int row)
         [GM_CAR_ENGINE_TORQUE] = BIT(GM_CAR_ENGINE_SPEED) | BIT(GM_CAR_ENGINE_TORQUE) |
                                  BIT(GM_CAR_SPEED) | BIT(GM_CAR_INTEGRAL),
         [GM_CAR_FLYWHEEL] = BIT(GM_CAR_ENGINE_SPEED) | BIT(GM_CAR_DRUM_SPEED),
-        [GM_CAR_DRUM_SPEED] = FLYWHEEL | FLANGE(1) | FLANGE(2),
+        [GM_CAR_DRUM_SPEED] =
+            FLYWHEEL | BIT(GM_CAR_ENGINE_TORQUE) | FLANGE(1) | FLANGE(2),
         [GM_CAR_SHAFTS] = TWISTING,
         [GM_CAR_WHEELS] = SHAFT_TORQUE | BRAKE,
         [GM_CAR_SPEED] = SHAFT_TORQUE | BRAKE,

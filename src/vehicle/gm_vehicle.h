@@ -5,7 +5,7 @@
  *
  *   J_e dw_e/dt = T_e - T_dmf              dT_e/dt = (T_target - T_e) / lag
  *   J_d dw_d/dt = T_dmf - sum_p T_p        T_dmf = k twist + d (w_e - w_d)
- *   T_p = capacity_p tanh((w_d - w_p) / slip)           into path p of the gearset
+ *   T_p = share_p grip tanh((w_d - w_p) / slip)         into path p of the gearset
  *   T_s = k twist + d (w_o - v / r)                     out of the gearset's output
  *   (m + J_w / r2) dv/dt = T_s / r - rolling - drag - hill - brake
  *   hill = m g sin(atan(grade))     grade: the road's and, added to it, the cycle's
@@ -65,6 +65,8 @@ typedef struct gm_vehicle {
     double launch_speed;        /* engine speed at which the clutch begins, rad/s */
     double launch_gain;         /* capacity = gain (w - launch_speed)^2, N.m.s2/rad2 */
     double clutch_torque_max;   /* N.m */
+    double clutch_margin;       /* what a clutch that slips much holds beyond the engine's
+                                   torque, N.m */
     gm_full_load full_load;     /* of the engine */
     double drag_torque, drag_per_speed; /* engine without fuel: N.m, N.m.s/rad */
     double torque_lag;                  /* of the engine, s */
@@ -112,6 +114,22 @@ double gm_engine_target(const gm_vehicle *v, double demand, double w, double *d_
 
 /** Capacity of a closing or closed clutch over engine speed [N.m]. */
 double gm_clutch_capacity(const gm_vehicle *v, double w, double *slope);
+
+/** What a clutch can carry at present [N.m], with derivatives. While it slips it is
+ *  pressed for the engine's torque T and, to pull the engine to its new speed, for
+ *  clutch_margin more, which eases off before the slip is gone; then it closes to all of
+ *  its capacity C:
+ *    S = sqrt(T2 + (5 N.m)2) + margin z2 / (1 + z2),   z = slip / (30 rad/s)
+ *    F = C S / sqrt(C2 + S2),  the smaller of the two
+ *    grip = F + (C - F) / (1 + y2),   y = slip / (1 rad/s)
+ *  So a shift moves as much torque as there is, two clutches that both carry do not work
+ *  against each other, and the torque does not jump when slip ends. */
+typedef struct gm_clutch_grip {
+    double value, by_w, by_torque, by_slip;
+} gm_clutch_grip;
+
+gm_clutch_grip gm_clutch_grip_at(const gm_vehicle *v, double w, double torque,
+                                 double slip);
 
 /** Rolling resistance and air drag [N] at speed v [m/s], on the level: the cosine of a
  *  grade of 10 % is 0.995. */

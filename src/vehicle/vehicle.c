@@ -5,6 +5,9 @@
 #include <stddef.h>
 
 #define RPM (3.14159265358979323846 / 30.0)
+#define CLOSING_SLIP 1.0 /* rad/s: within this it closes for good */
+#define EASING_SLIP 30.0 /* rad/s: nearer than this a clutch eases off */
+#define LEAST_GRIP 5.0 /* N.m, of a clutch that slips, beside an engine without torque */
 #define REST_SPEED 0.1 /* m/s, over which rolling resistance changes its direction */
 #define SLIP_SPEED 1.0 /* m/s, below which slip is reckoned as if at that speed */
 #define REST_OMEGA 5.0 /* rad/s, the same for the engine's drag: it never runs there */
@@ -28,6 +31,7 @@ gm_vehicle gm_vehicle_reference(void)
         .launch_speed = 82.0,
         .launch_gain = 0.04,
         .clutch_torque_max = 300.0,
+        .clutch_margin = 30.0,
         .full_load = {2, {{750.0 * RPM, 100.0, 0}, {1500.0 * RPM, 200.0, 0}}},
         .drag_torque = 12.0,
         .drag_per_speed = 0.02,
@@ -84,6 +88,7 @@ static const rule rules[] = {
     POSITIVE(launch_speed),
     POSITIVE(launch_gain),
     POSITIVE(clutch_torque_max),
+    POSITIVE(clutch_margin),
     NOT_NEGATIVE(drag_torque),
     NOT_NEGATIVE(drag_per_speed),
     POSITIVE(torque_lag),
@@ -188,6 +193,32 @@ double gm_clutch_capacity(const gm_vehicle *v, double w, double *slope)
         return v->clutch_torque_max;
     *slope = 2.0 * v->launch_gain * x;
     return capacity;
+}
+
+/* C S / sqrt(C2 + S2): the smaller of the two, rounded off. */
+static double smaller(double c, double s, double *by_c, double *by_s)
+{
+    double root = hypot(c, s);
+    *by_c = s * s * s / (root * root * root);
+    *by_s = c * c * c / (root * root * root);
+    return c * s / root;
+}
+
+gm_clutch_grip gm_clutch_grip_at(const gm_vehicle *v, double w, double torque,
+                                 double slip)
+{
+    double slope, by_c, by_s, capacity = gm_clutch_capacity(v, w, &slope);
+    double y = slip / CLOSING_SLIP, closed = 1.0 / (1.0 + y * y);
+    double z = slip / EASING_SLIP, eased = z * z / (1.0 + z * z);
+    double eased_by = 2.0 * z / EASING_SLIP / ((1.0 + z * z) * (1.0 + z * z));
+    double root = hypot(torque, LEAST_GRIP);
+    double held = smaller(capacity, root + v->clutch_margin * eased, &by_c, &by_s);
+    double open = 1.0 - closed, closed_by = -2.0 * y / CLOSING_SLIP * closed * closed;
+    return (gm_clutch_grip){.value = held + (capacity - held) * closed,
+                            .by_w = slope * (by_c + (1.0 - by_c) * closed),
+                            .by_torque = by_s * torque / root * open,
+                            .by_slip = (capacity - held) * closed_by +
+                                       by_s * v->clutch_margin * eased_by * open};
 }
 
 double gm_road_load(const gm_vehicle *vehicle, double v, double *slope)

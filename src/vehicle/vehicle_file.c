@@ -96,6 +96,8 @@ static const gm_field clutch_fields[] = {
      .help = "engine speed from which on the clutch closes"},
     {NUMBER("launch_gain_Nms2_rad2", 0, 100), ABOVE, AT(launch_gain), DEFAULT("0.04"),
      .help = "capacity over the square of the speed beyond it"},
+    {NUMBER("shift_margin_Nm", 1, 1e4), AT(clutch_margin), DEFAULT("30"),
+     .help = "what it holds beyond the engine's torque while it slips much"},
     {NUMBER("slip_rad_s", 0.01, 50), AT(clutch_slip), DEFAULT("0.5"),
      .help = "torque is capacity times tanh(slip / this)"},
     END};

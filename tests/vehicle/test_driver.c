@@ -55,6 +55,45 @@ static void engine_keeps_its_limits(void **state)
     assert_true(gm_clutch_capacity(&car, 400.0, &d) == 300.0);
 }
 
+/* By hand, engine at 132 rad/s (capacity 100 N.m) with 12 N.m: without slip all of it; at
+ * a slip of 30 rad/s the smaller of 100 and 13 + 30/2, rounded off, and next to nothing of
+ * the rest. */
+static void clutch_holds_what_a_shift_needs(void **state)
+{
+    (void)state;
+    gm_vehicle car = gm_vehicle_reference();
+    double held = 100.0 * 28.0 / sqrt(100.0 * 100.0 + 28.0 * 28.0);
+    assert_true(fabs(gm_clutch_grip_at(&car, 132.0, 12.0, 0.0).value - 100.0) < 1e-9);
+    assert_true(fabs(gm_clutch_grip_at(&car, 132.0, 12.0, 30.0).value -
+                     (held + (100.0 - held) / 901.0)) < 1e-9);
+    assert_true(gm_clutch_grip_at(&car, 80.0, 12.0, 10.0).value == 0.0);
+}
+
+/* Central differences: curvature over 1e-4 of a width of 1 rad/s. */
+static void derivatives_of_the_grip_are_exact(void **state)
+{
+    uint64_t seed = 5;
+    gm_vehicle car = gm_vehicle_reference();
+    (void)state;
+    for (int i = 0; i < 1000; i++) {
+        const double h = 1e-4, w = random_between(&seed, 83.0, 160.0);
+        const double torque = random_between(&seed, -40.0, 200.0);
+        const double slip = random_between(&seed, -60.0, 60.0);
+        const gm_clutch_grip grip = gm_clutch_grip_at(&car, w, torque, slip);
+        const double by[3] = {
+            gm_clutch_grip_at(&car, w + h, torque, slip).value -
+                gm_clutch_grip_at(&car, w - h, torque, slip).value,
+            gm_clutch_grip_at(&car, w, torque + h, slip).value -
+                gm_clutch_grip_at(&car, w, torque - h, slip).value,
+            gm_clutch_grip_at(&car, w, torque, slip + h).value -
+                gm_clutch_grip_at(&car, w, torque, slip - h).value,
+        };
+        assert_true(fabs(by[0] / (2.0 * h) - grip.by_w) < 1e-5);
+        assert_true(fabs(by[1] / (2.0 * h) - grip.by_torque) < 1e-5);
+        assert_true(fabs(by[2] / (2.0 * h) - grip.by_slip) < 1e-4);
+    }
+}
+
 static gm_driver_view random_view(uint64_t *seed)
 {
     return (gm_driver_view){.v_ref = random_between(seed, 0.0, 2.0),
@@ -135,6 +174,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(road_load_has_known_values),
         cmocka_unit_test(engine_keeps_its_limits),
+        cmocka_unit_test(clutch_holds_what_a_shift_needs),
+        cmocka_unit_test(derivatives_of_the_grip_are_exact),
         cmocka_unit_test(derivatives_are_exact),
         cmocka_unit_test(a_standing_cycle_asks_for_nothing_but_the_brake),
         cmocka_unit_test(a_vehicle_with_a_wrong_number_is_refused),
