@@ -68,6 +68,8 @@ static void compliance_fields(const gm_table_text *w, const gm_gear *gear)
     number(w, gear->stiffness);
     gm_buffer_text(w->text, ", .damping = ");
     number(w, gear->damping);
+    gm_buffer_text(w->text, ", .loose_damping = ");
+    number(w, gear->loose_damping);
     gm_buffer_text(w->text, ", .lash = ");
     number(w, gear->lash);
     gm_buffer_text(w->text, ", .film = ");

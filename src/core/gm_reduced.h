@@ -66,12 +66,13 @@ typedef struct gm_gear {
                                -> loss torque at the path's flange [N.m] */
     /* Between the path's flange and the output, seen from the flange; used in fidelity
        lash. stiffness 0: not known, the path is rigid in that gear. */
-    gm_real stiffness; /* k [N.m/rad], both flanks in contact, >= 0 */
-    gm_real damping;   /* d of the contact at slow slip [N.m.s/rad], >= 0 */
-    gm_real lash;      /* whole free angle [rad], >= 0 */
-    gm_real film;      /* last part of it before contact, in which the squeezed oil film
+    gm_real stiffness;     /* k [N.m/rad], both flanks in contact, >= 0 */
+    gm_real damping;       /* d of the contact [N.m.s/rad], >= 0 */
+    gm_real loose_damping; /* d_l of what idles along, at slow slip [N.m.s/rad], >= 0 */
+    gm_real lash;          /* whole free angle [rad], >= 0 */
+    gm_real film;     /* last part of it before contact, in which the squeezed oil film
                           damps more and more [rad], >= 0 */
-    gm_table1 pin[2];  /* part of P that brakes the input side, by direction of rotation
+    gm_table1 pin[2]; /* part of P that brakes the input side, by direction of rotation
                           of the path: x |w_p| [rad/s] -> N.m at the path's flange, >= 0;
                           value = NULL: zero */
 } gm_gear;

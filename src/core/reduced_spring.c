@@ -4,7 +4,7 @@
  * theta, slip s = dtheta/dt, compression e = max(0, |theta| - lash/2) of the flank that
  * carries, u = |theta| - lash/2:
  *
- *   T = sgn(theta) k e + d q(u) s (1 + y) / (1 + y + y^2),    y = |s| / v
+ *   T = sgn(theta) k e + q(u) s [d + d_l (1 + y) / (1 + y + y^2)],    y = |s| / v
  *
  * with q = 1 in contact, 0.05 in the middle of the gap. In between, over the depth `film`
  * before contact, q rises as 3t^2 - 2t^3: the oil film between the flanks is squeezed. So
@@ -12,10 +12,10 @@
  * on its flank instead of bouncing on it. The meshes of the detailed gearset have the
  * same law.
  *
- * Beyond the speed v = 1 rad/s damping goes over to a constant torque d v: most of d are
- * idling gears that hang in the oil of their backlash (model/loose.h). They take part in
- * small vibrations and are shaken off by large ones. q and the share of v are read where
- * a sub-step begins, so the damper is linear over it.
+ * d_l is what idling gears take that hang in the oil of their backlash (model/loose.h),
+ * most of all where there are any. They take part in small vibrations and are shaken off
+ * by large ones: beyond v = 1 rad/s their share goes over to a constant torque d_l v. q
+ * and that share are read where a sub-step begins, so the damper is linear over it.
  *
  * Over a sub-step of h from theta to theta + h s, F is the mean over the way, [U(theta +
  * h s) - U(theta)] / (h s) with U = k e^2/2: what the spring takes is exactly what it
@@ -89,7 +89,7 @@ gm_real gm_spring_damping(const gm_gear *gear, gm_real twist, gm_real slip)
 {
     gm_real unused;
     const gm_real q = film_share(gear, gm_abs(twist) - gear->lash / 2, &unused);
-    return gear->damping * q * loose_share(slip, &unused);
+    return q * (gear->damping + gear->loose_damping * loose_share(slip, &unused));
 }
 
 /* Add the spring of the flank that is loaded where sign * twist > 0. */
@@ -128,13 +128,15 @@ gm_spring_gradient gm_spring_gradient_at(const gm_gear *gear, gm_real twist, gm_
     const gm_real side = twist < 0 ? -1 : 1, u = side * twist - gear->lash / 2;
     gm_real rise, slope;
     const gm_real share = loose_share(slip, &slope);
-    const gm_real d = gear->damping * film_share(gear, u, &rise);
+    const gm_real q = film_share(gear, u, &rise);
+    const gm_real d = gear->damping + gear->loose_damping * share;
+    const gm_real d_slip = gear->damping + gear->loose_damping * slope;
     gm_spring_gradient g;
-    rise *= side * gear->damping * share;
+    rise *= side * d;
     g.torque_twist = rise * slip + (u > 0 ? gear->stiffness : 0);
-    g.torque_slip = d * slope;
+    g.torque_slip = q * d_slip;
     g.power_twist = rise * slip * slip;
-    g.power_slip = d * slip * (share + slope);
+    g.power_slip = q * slip * (d + d_slip);
     return g;
 }
 

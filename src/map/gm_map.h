@@ -13,7 +13,7 @@
 extern "C" {
 #endif
 
-#define GM_MAP_FORMAT 2 /* version of the file's schema */
+#define GM_MAP_FORMAT 3 /* version of the file's schema */
 #define GM_MAP_TEXT 128
 #define GM_MAP_ANY 99 /* in place of a gear or direction that does not apply */
 
@@ -71,9 +71,10 @@ typedef struct gm_map_gear {
     double ratio_given; /* NAN: not given */
     double stiffness; /* between flange and output, at the path's flange, N.m/rad; 0: not
                            known, rigid */
-    double damping;   /* N.m.s/rad */
-    double lash;      /* rad, from flank to flank */
-    double film;      /* rad before contact in which the damping sets in */
+    double damping;   /* N.m.s/rad, of what carries */
+    double loose_damping; /* N.m.s/rad, of what idles along, at slow slip */
+    double lash;          /* rad, from flank to flank */
+    double film;          /* rad before contact in which the damping sets in */
     double inertia_extra; /* J_g: turns with the output in this gear beyond J_out and
                              r^2 J_p, kg.m2; 0 for layshafts */
 } gm_map_gear;

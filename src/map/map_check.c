@@ -76,14 +76,16 @@ static gm_status check_compliance(const gm_map_path *path, const gm_map_gear *ge
                                   gm_error *error)
 {
     if (gear->stiffness >= 0.0 && isfinite(gear->stiffness) && gear->damping >= 0.0 &&
-        isfinite(gear->damping) && gear->lash >= 0.0 && isfinite(gear->lash) &&
+        isfinite(gear->damping) && gear->loose_damping >= 0.0 &&
+        isfinite(gear->loose_damping) && gear->lash >= 0.0 && isfinite(gear->lash) &&
         gear->film >= 0.0 && isfinite(gear->film))
         return GM_OK;
-    return gm_fail(error, GM_ERR_FORMAT,
-                   "path %s: gear %d has the stiffness %g N.m/rad, the damping %g "
-                   "N.m.s/rad, the lash %g rad and the film %g rad; none may be negative",
-                   path->name, gear->number, gear->stiffness, gear->damping, gear->lash,
-                   gear->film);
+    return gm_fail(
+        error, GM_ERR_FORMAT,
+        "path %s: gear %d has the stiffness %g N.m/rad, the damping %g and "
+        "%g N.m.s/rad, the lash %g rad and the film %g rad; none may be negative",
+        path->name, gear->number, gear->stiffness, gear->damping, gear->loose_damping,
+        gear->lash, gear->film);
 }
 
 static gm_status check_path(const gm_map *map, const gm_map_path *path, gm_error *error)

@@ -28,8 +28,9 @@ static bool column_gear(sqlite3_stmt *rows, int *path, gm_map_gear *gear)
            (!given || gm_column_real(rows, 3, &gear->ratio_given)) &&
            gm_column_real(rows, 4, &gear->stiffness) &&
            gm_column_real(rows, 5, &gear->damping) &&
-           gm_column_real(rows, 6, &gear->lash) && gm_column_real(rows, 7, &gear->film) &&
-           gm_column_real(rows, 8, &gear->inertia_extra);
+           gm_column_real(rows, 6, &gear->loose_damping) &&
+           gm_column_real(rows, 7, &gear->lash) && gm_column_real(rows, 8, &gear->film) &&
+           gm_column_real(rows, 9, &gear->inertia_extra);
 }
 
 static gm_status read_gears(const gm_db *db, gm_map *map, gm_error *error)
@@ -37,11 +38,11 @@ static gm_status read_gears(const gm_db *db, gm_map *map, gm_error *error)
     sqlite3_stmt *rows;
     bool row = true;
     int filled[GM_MAX_PATHS] = {0};
-    gm_status status =
-        gm_db_prepare(db,
-                      "SELECT path, gear, ratio, ratio_given, stiffness, damping, lash, "
-                      "film, inertia_extra FROM gear ORDER BY path, gear",
-                      &rows, error);
+    gm_status status = gm_db_prepare(
+        db,
+        "SELECT path, gear, ratio, ratio_given, stiffness, damping, "
+        "loose_damping, lash, film, inertia_extra FROM gear ORDER BY path, gear",
+        &rows, error);
     if (status == GM_OK)
         status = gm_db_next(db, rows, &row, error);
     while (status == GM_OK && row) {

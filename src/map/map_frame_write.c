@@ -33,9 +33,10 @@ static gm_status write_gear(const gm_db *db, sqlite3_stmt *put, int p,
     (void)sqlite3_bind_double(put, 4, gear->ratio_given); /* NAN becomes NULL */
     (void)sqlite3_bind_double(put, 5, gear->stiffness);
     (void)sqlite3_bind_double(put, 6, gear->damping);
-    (void)sqlite3_bind_double(put, 7, gear->lash);
-    (void)sqlite3_bind_double(put, 8, gear->film);
-    (void)sqlite3_bind_double(put, 9, gear->inertia_extra);
+    (void)sqlite3_bind_double(put, 7, gear->loose_damping);
+    (void)sqlite3_bind_double(put, 8, gear->lash);
+    (void)sqlite3_bind_double(put, 9, gear->film);
+    (void)sqlite3_bind_double(put, 10, gear->inertia_extra);
     return gm_db_step(db, put, error);
 }
 
@@ -47,8 +48,9 @@ gm_status gm_frame_write_paths(const gm_db *db, const gm_map *map, gm_error *err
         status =
             gm_db_prepare(db, "INSERT INTO path VALUES (?, ?, ?, ?)", &put_path, error);
     if (status == GM_OK)
-        status = gm_db_prepare(db, "INSERT INTO gear VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
-                               &put_gear, error);
+        status =
+            gm_db_prepare(db, "INSERT INTO gear VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                          &put_gear, error);
     for (int p = 0; status == GM_OK && p < map->n_paths; p++) {
         status = write_path(db, put_path, map, p, error);
         for (int g = 0; status == GM_OK && g < map->paths[p].n_gears; g++)

@@ -65,6 +65,7 @@ static void add_path(gm_sha256 *sum, const gm_map_path *path)
         gm_sha256_double(sum, given_or_zero(path->gears[g].ratio_given));
         gm_sha256_double(sum, path->gears[g].stiffness);
         gm_sha256_double(sum, path->gears[g].damping);
+        gm_sha256_double(sum, path->gears[g].loose_damping);
         gm_sha256_double(sum, path->gears[g].lash);
         gm_sha256_double(sum, path->gears[g].film);
     }

@@ -71,6 +71,7 @@ static gm_status build_gear(const builder *b, int p, int g)
     gear->ratio = from->ratio;
     gear->stiffness = from->stiffness;
     gear->damping = from->damping;
+    gear->loose_damping = from->loose_damping;
     gear->lash = from->lash;
     gear->film = from->film;
     gear->inertia_extra = from->inertia_extra;

@@ -6,8 +6,8 @@
  *   1/k = sum F_e^2 / k_e,   lash = sum |F_e| j_e,   film = sum |F_e| e_e
  *
  * and equal dissipation at slow motion, where every row takes its static share of the
- * rate, d / k^2 = sum d_e (F_e / k_e)^2. Parts that carry nothing add to the damping as
- * loose.h has it, at the frequency of the path's flange on its stiffness.
+ * rate, d / k^2 = sum d_e (F_e / k_e)^2. Parts that carry nothing damp as loose.h has it,
+ * at the frequency of the path's flange on its stiffness.
  */
 #include "model/loose.h"
 #include "model/nodes.h"
@@ -110,8 +110,11 @@ gm_status gm_gearset_compliance(const gm_gearset *gearset, int p, int number,
     if (status == GM_OK) {
         double k = 1.0 / s.flexibility;
         double frequency = path > 0.0 ? sqrt(k / path) : 0.0;
-        double damping = k * k * s.dissipation + LOOSE_DAMPER * frequency * loose;
-        *compliance = (gm_compliance){k, damping, s.lash, s.film};
+        *compliance = (gm_compliance){.stiffness = k,
+                                      .damping = k * k * s.dissipation,
+                                      .loose_damping = LOOSE_DAMPER * frequency * loose,
+                                      .lash = s.lash,
+                                      .film = s.film};
     }
     gm_configuration_rows_clear(&rows);
     return status;

@@ -43,10 +43,11 @@ double gm_extra_inertia(const gm_kinematics *kinematics);
 
 /** How a path gives way between its flange and the held output, in one gear. */
 typedef struct gm_compliance {
-    double stiffness; /* N.m/rad at the path's flange, flanks in contact, > 0 */
-    double damping;   /* N.m.s/rad, in parallel with it, of small vibrations */
-    double lash;      /* rad at the path's flange, from flank to flank, >= 0 */
-    double film;      /* rad, depth before contact in which the damping sets in, >= 0 */
+    double stiffness;     /* N.m/rad at the path's flange, flanks in contact, > 0 */
+    double damping;       /* N.m.s/rad, in parallel with it */
+    double loose_damping; /* N.m.s/rad, of what idles along, of small vibrations */
+    double lash;          /* rad at the path's flange, from flank to flank, >= 0 */
+    double film; /* rad, depth before contact in which the damping sets in, >= 0 */
 } gm_compliance;
 
 #endif

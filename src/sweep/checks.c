@@ -35,7 +35,7 @@ static gm_status check_ratio(const gm_map_path *path, const gm_map_gear *gear,
 static gm_status identify_compliance(const gm_plant *plant, int p, gm_map_gear *gear,
                                      gm_error *error)
 {
-    gm_compliance c = {0.0, 0.0, 0.0, 0.0};
+    gm_compliance c = {.stiffness = 0.0};
     gm_status status = GM_OK;
     if (plant->is->compliance)
         status = plant->is->compliance(plant->self, p, gear->number, &c, error);
@@ -43,6 +43,7 @@ static gm_status identify_compliance(const gm_plant *plant, int p, gm_map_gear *
         return status;
     gear->stiffness = c.stiffness;
     gear->damping = c.damping;
+    gear->loose_damping = c.loose_damping;
     gear->lash = c.lash;
     gear->film = c.film;
     return GM_OK;

@@ -125,7 +125,8 @@ static void set_gear(gm_map_path *path, int g, int number, double ratio)
                                    .ratio = ratio,
                                    .ratio_given = (double)NAN,
                                    .stiffness = 2e4,
-                                   .damping = 6.0,
+                                   .damping = 2.0,
+                                   .loose_damping = 4.0,
                                    .lash = 5e-3,
                                    .film = 1e-4};
 }

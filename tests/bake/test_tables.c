@@ -73,6 +73,7 @@ static void same_path(const gm_path *a, const gm_path *b)
             same2(&a->gears[g].load_loss[d], &b->gears[g].load_loss[d]);
             assert_true(a->gears[g].stiffness == b->gears[g].stiffness);
             assert_true(a->gears[g].damping == b->gears[g].damping);
+            assert_true(a->gears[g].loose_damping == b->gears[g].loose_damping);
             assert_true(a->gears[g].lash == b->gears[g].lash);
             assert_true(a->gears[g].film == b->gears[g].film);
             same1(&a->gears[g].pin[d], &b->gears[g].pin[d]);

@@ -42,6 +42,7 @@ hand_spec hand_default(void)
         .c_width = 20.0,
         .stiffness = {2e4, 3e4},
         .damping = {2.0, 3.0},
+        .loose_damping = {4.0, 3.0},
         .lash = {5e-3, 4e-3},
         .film = 1e-4,
         .pin_part = 0.2,
@@ -189,6 +190,7 @@ static void fill_gear(const hand_spec *s, int p, int g, unsigned *seed, hand_map
     gear->inertia_extra = s->inertia_extra[p][g];
     gear->stiffness = s->stiffness[p];
     gear->damping = s->damping[p];
+    gear->loose_damping = s->loose_damping[p];
     gear->lash = s->lash[p];
     gear->film = s->film;
     for (int dir = 0; dir < 2; dir++) {

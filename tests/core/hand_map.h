@@ -32,7 +32,7 @@ typedef struct hand_spec {
     double n0[2], n1, k, r_k;
     double j0, j1;
     double c0, c1, c_width;
-    double stiffness[2], damping[2], lash[2], film, pin_part;
+    double stiffness[2], damping[2], loose_damping[2], lash[2], film, pin_part;
     double speed_max,
         torque_max;     /* of the output, of a path; path speeds go 20 x higher */
     unsigned roughness; /* seed: node values of P and D vary by up to 50 %; 0: no */

@@ -180,6 +180,7 @@ gm_map *fixture_map(const fixture_options *options)
             gear->ratio_given = gear->number == 3 ? (double)NAN : gear->ratio * 1.0001;
             gear->stiffness = 1e4 * (1.0 + fixture_random(&state));
             gear->damping = 3.0 * fixture_random(&state);
+            gear->loose_damping = 9.0 * fixture_random(&state);
             gear->lash = 0.01 * fixture_random(&state);
             gear->film = 1e-4 * fixture_random(&state);
         }
@@ -226,6 +227,7 @@ static bool same_path(const gm_map_path *a, const gm_map_path *b)
                same_number(a->gears[g].ratio_given, b->gears[g].ratio_given) &&
                same_number(a->gears[g].stiffness, b->gears[g].stiffness) &&
                same_number(a->gears[g].damping, b->gears[g].damping) &&
+               same_number(a->gears[g].loose_damping, b->gears[g].loose_damping) &&
                same_number(a->gears[g].lash, b->gears[g].lash) &&
                same_number(a->gears[g].film, b->gears[g].film) &&
                same_number(a->gears[g].inertia_extra, b->gears[g].inertia_extra);

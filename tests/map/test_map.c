@@ -214,6 +214,7 @@ static void hash_sees_every_number_and_text(void **state)
                          &path->gears[1].ratio_given,
                          &path->gears[1].stiffness,
                          &path->gears[1].damping,
+                         &path->gears[1].loose_damping,
                          &path->gears[1].lash,
                          &path->gears[1].film,
                          &path->gears[1].inertia_extra};

@@ -84,14 +84,16 @@ static double detailed_slip(rig *r, pull *u)
     return sum;
 }
 
-/* J ds/dt = step - k x - d s (1 + |s|) / (1 + |s| + s^2), dx/dt = s, by leapfrog. */
+/* J ds/dt = step - k x - d s - d_l s (1 + |s|) / (1 + |s| + s^2), dx/dt = s, by
+ * leapfrog. */
 static double reduced_slip(const gm_compliance *c, double inertia, double step)
 {
     const double h = 1e-7;
     double x = 0.0, s = 0.0, sum = 0.0;
     for (int i = 0; i < (int)(LENGTH / h); i++) {
         double y = fabs(s) / SLOW_SLIP;
-        double damper = c->damping * s * (1.0 + y) / (1.0 + y + y * y);
+        double share = (1.0 + y) / (1.0 + y + y * y);
+        double damper = (c->damping + c->loose_damping * share) * s;
         s += h * (step - c->stiffness * x - damper) / inertia;
         x += h * s;
         sum += s * s * h;
