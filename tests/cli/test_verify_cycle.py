@@ -21,9 +21,10 @@ def trace(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def driven(example_fmu, trace):
-    """A loose tolerance: the figures are looked at elsewhere, here it is the form."""
+    """A looser tolerance: the figures are looked at elsewhere, here it is the form. At 1e-4
+    steps are too long for a clutch that closes: errors of the solver beside the gearset's."""
     return result_of("verify", EXAMPLE, example_fmu, "--cycle", "ece15", "--tolerance",
-                     "1e-4", "--trace", trace)
+                     "1e-5", "--trace", trace)
 
 
 def test_schema_of_the_result(driven):
@@ -45,7 +46,7 @@ def test_schema_of_the_result(driven):
 def test_all_energy_is_accounted_for(driven):
     """The account is open by the error of the solution, ten times its tolerance."""
     for run in [driven["detailed"], *driven["reduced"]]:
-        assert run["energy_balance_relative"] < 1e-3
+        assert run["energy_balance_relative"] < 1e-4
 
 
 def test_reduced_drives_like_detailed(driven):

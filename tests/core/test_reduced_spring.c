@@ -34,8 +34,8 @@ static gm_spring spring_now(const gm_gear *gear, double twist, double slip)
 
 /* ---- the law ---- */
 
-/* By hand: in contact k e + d s + d_l s (1 + |s|) / (1 + |s| + s^2); in the gap 0.05 of the
- * damping; half a film before contact it is half way between. */
+/* By hand: in contact k e + d s + d_l s (1 + |s|) / (1 + |s| + s^2); in the gap 0.05 of
+ * the damping; half a film before contact it is half way between. */
 static void follows_its_law(void **state)
 {
     const gm_gear gear = {

@@ -56,8 +56,8 @@ static void engine_keeps_its_limits(void **state)
 }
 
 /* By hand, engine at 132 rad/s (capacity 100 N.m) with 12 N.m: without slip all of it; at
- * a slip of 30 rad/s the smaller of 100 and 13 + 30/2, rounded off, and next to nothing of
- * the rest. */
+ * a slip of 30 rad/s the smaller of 100 and 13 + 30/2, rounded off, and next to nothing
+ * of the rest. */
 static void clutch_holds_what_a_shift_needs(void **state)
 {
     (void)state;
