@@ -106,8 +106,11 @@ static int run(const void *given)
     gm_status status = gm_reduce(&settings, &r, &error);
     if (status == GM_OK)
         status = gm_command_print(&form, a->json, &r, &error);
+    int skipped = r.sweep.summary.n_skipped;
+    gm_stage_warn_skips(&r.sweep);
     gm_reduction_clear(&r);
-    return gm_command_end(status, &error);
+    int code = gm_command_end(status, &error);
+    return code == GM_EXIT_DONE && skipped > 0 ? GM_EXIT_SKIPPED : code;
 }
 
 const gm_command gm_command_reduce = {

@@ -78,7 +78,7 @@ static gm_status sweep_file(const arguments *a, const gm_gearset_file *file, out
     return status;
 }
 
-static gm_status sweep(const arguments *a, gm_error *error)
+static gm_status sweep(const arguments *a, int *skipped, gm_error *error)
 {
     gm_gearset_file file;
     outcome o = {.measured = false};
@@ -89,6 +89,8 @@ static gm_status sweep(const arguments *a, gm_error *error)
     if (status != GM_OK)
         return status;
     status = sweep_file(a, &file, &o, error);
+    gm_stage_warn_skips(&o.sweep);
+    *skipped = o.sweep.summary.n_skipped;
     if (status == GM_OK)
         status = gm_command_print(&form, a->json, &o, error);
     gm_stage_verify_clear(&o.verify);
@@ -104,7 +106,9 @@ static int run(const void *given)
     if (!gm_stage_knows_interpolation(a->interpolation) ||
         !gm_progress_choose(a->progress))
         return GM_EXIT_USAGE;
-    return gm_command_end(sweep(a, &error), &error);
+    int skipped = 0;
+    int code = gm_command_end(sweep(a, &skipped, &error), &error);
+    return code == GM_EXIT_DONE && skipped > 0 ? GM_EXIT_SKIPPED : code;
 }
 
 const gm_command gm_command_sweep = {

@@ -8,7 +8,7 @@
 #include "json.h"
 #include "options.h"
 
-enum { GM_EXIT_DONE = 0, GM_EXIT_FAILED = 1, GM_EXIT_USAGE = 2 };
+enum { GM_EXIT_DONE = 0, GM_EXIT_FAILED = 1, GM_EXIT_USAGE = 2, GM_EXIT_SKIPPED = 3 };
 
 extern const gm_command gm_command_check;
 extern const gm_command gm_command_sweep;

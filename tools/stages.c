@@ -95,6 +95,7 @@ gm_status gm_stage_sweep(const gm_gearset_file *file, const gm_sweep_settings *s
 void gm_stage_sweep_clear(gm_sweep_stage *stage)
 {
     gm_map_destroy(stage->map);
+    gm_sweep_summary_clear(&stage->summary);
     memset(stage, 0, sizeof *stage);
 }
 

@@ -83,6 +83,9 @@ GM_NODISCARD gm_status gm_stage_measure(const gm_plant *plant,
                                         int points, int seed, gm_verify_stage *stage,
                                         gm_error *error);
 
+/** Say on the standard error at which points a simulated model failed, and why. */
+void gm_stage_warn_skips(const gm_sweep_stage *stage);
+
 /** Say on the standard error which tables missed the tolerance of the sweep and where,
  *  and which kinds of points lie outside of it as measured. */
 void gm_stage_warn(const gm_sweep_stage *sweep, const gm_verify_stage *verify);

@@ -43,6 +43,11 @@ void gm_sweep_stage_json(const gm_sweep_stage *stage, gm_json *json)
                    stage->summary.largest_ratio_deviation);
     gm_json_integer(json, "size_bytes", map_size(stage));
     gm_json_number(json, "elapsed_s", stage->summary.elapsed);
+    gm_json_number(json, "uncertainty_Nm", stage->summary.uncertainty);
+    gm_json_array(json, "skipped");
+    for (int i = 0; i < stage->summary.n_skipped; i++)
+        gm_json_text(json, NULL, stage->summary.skipped[i].words);
+    gm_json_end(json);
     gm_stage_missed_json(stage, json);
 }
 

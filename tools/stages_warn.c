@@ -70,6 +70,18 @@ static const gm_verify_case *outside(const gm_sweep_stage *sweep,
     return worst;
 }
 
+void gm_stage_warn_skips(const gm_sweep_stage *stage)
+{
+    const gm_sweep_summary *s = &stage->summary;
+    for (int i = 0; i < s->n_skipped; i++)
+        fprintf(stderr, "gearmap: warning: skipped: %s\n", s->skipped[i].words);
+    if (s->n_skipped > 0)
+        fprintf(stderr,
+                "gearmap: warning: the model failed at %d of %ld points, twice each; "
+                "their values come from their neighbours\n",
+                s->n_skipped, s->points + s->resumed);
+}
+
 void gm_stage_warn(const gm_sweep_stage *sweep, const gm_verify_stage *verify)
 {
     if (!is_by_error(sweep))

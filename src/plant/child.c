@@ -79,6 +79,9 @@ static void leave_parent(int socket)
         if (file != socket)
             (void)close(file);
     (void)setrlimit(RLIMIT_CORE, &none);
+    static const int deadly[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
+    for (size_t i = 0; i < sizeof deadly / sizeof deadly[0]; i++)
+        (void)signal(deadly[i], SIG_DFL); /* whatever a sanitizer made of them */
     (void)signal(SIGINT, SIG_IGN);
     (void)signal(SIGTERM, SIG_DFL);
     (void)signal(SIGALRM, SIG_DFL);

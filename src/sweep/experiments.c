@@ -116,7 +116,8 @@ static gm_status line_at(place *p, gm_sample *found)
             return status;
         drag[side] = p->result.torque[1 + path];
     }
-    found->value[0] = fmax(0.0, drag[1] - drag[0]);
+    double jump = drag[1] - drag[0];
+    found->value[0] = jump < 0.0 ? 0.0 : jump;
     found->size[0] = fmax(fabs(drag[0]), fabs(drag[1]));
     return GM_OK;
 }
@@ -138,8 +139,8 @@ static gm_status parasitic_at(place *p, gm_sample *found)
 static gm_status check_speed(const place *p, int path, double w_p)
 {
     double found = p->result.speed[1 + path];
-    if (fabs(found - w_p) <= 1e-9 * p->plan->map->speed_max)
-        return GM_OK;
+    if (isnan(found) || fabs(found - w_p) <= 1e-9 * p->plan->map->speed_max)
+        return GM_OK; /* not a number: the point was skipped */
     return gm_fail(p->error, GM_ERR_MODEL,
                    "path '%s', gear %d: at %g rad/s of the output the path turns at %g "
                    "rad/s, by its ratio it should at %g rad/s",

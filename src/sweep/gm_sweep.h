@@ -55,7 +55,20 @@ typedef struct gm_sweep_summary {
     double elapsed;                     /* s */
     double largest_ratio_deviation;     /* identified against given ratios, relative */
     gm_sweep_missed missed[GM_SYMBOLS]; /* by symbol, axes by error only */
+    double uncertainty; /* N.m, largest of a torque that was measured on a simulated
+                           plant; 0: all points were solved */
+    int n_skipped;      /* points at which a simulated plant failed twice; their values
+                           come from their neighbours */
+    struct gm_skipped_point *skipped; /* [n_skipped], owned: sentences with the reason */
 } gm_sweep_summary;
+
+/** A point that failed, and why. */
+typedef struct gm_skipped_point {
+    char words[320];
+} gm_skipped_point;
+
+/** Free what a summary holds. */
+void gm_sweep_summary_clear(gm_sweep_summary *summary);
 
 /** Run. path: the map's file, or NULL: in memory only. report and summary may be NULL.
  *  On success *map is the caller's. The result does not depend on the number of threads

@@ -4,7 +4,10 @@
 #include "base/alloc.h"
 #include "sweep/memo.h"
 
+#include <math.h>
 #include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
@@ -26,6 +29,9 @@ struct gm_points {
     gm_points_watch watch;
     void *user;
     double watched; /* s, when last */
+    bool may_skip;
+    int n_skipped;
+    gm_skipped_point *skipped;
 };
 
 struct gm_point_solver {
@@ -129,7 +135,39 @@ void gm_points_close(gm_points *points, bool keep)
     (void)pthread_mutex_destroy(&points->memo_lock);
     (void)pthread_mutex_destroy(&points->journal_lock);
     (void)pthread_mutex_destroy(&points->watch_lock);
+    gm_free(points->skipped);
     gm_free(points);
+}
+
+void gm_points_allow_skips(gm_points *points)
+{
+    points->may_skip = true;
+}
+
+static int by_words(const void *a, const void *b)
+{
+    return strcmp(((const gm_skipped_point *)a)->words,
+                  ((const gm_skipped_point *)b)->words);
+}
+
+int gm_points_skipped(const gm_points *points, const gm_skipped_point **skipped)
+{
+    if (points->n_skipped > 1)
+        qsort(points->skipped, (size_t)points->n_skipped, sizeof *points->skipped,
+              by_words);
+    *skipped = points->skipped;
+    return points->n_skipped;
+}
+
+double gm_points_uncertainty(const gm_points *points)
+{
+    double largest = 0.0;
+    for (long i = 0; i < gm_memo_count(points->memo); i++) {
+        const gm_steady_result *result = gm_memo_value(points->memo, i);
+        for (int f = 0; f < GM_MAX_FLANGES; f++)
+            largest = fmax(largest, result->uncertainty[f]);
+    }
+    return largest;
 }
 
 void gm_points_set_watch(gm_points *points, gm_points_watch watch, void *user)
@@ -238,6 +276,26 @@ static gm_status journal(gm_point_solver *s, const record *solved, double t,
                                                       : GM_OK;
 }
 
+/* Keep the reason; the point counts as known, without numbers. */
+static gm_status skip(gm_points *p, record *failed, const gm_error *why, gm_error *error)
+{
+    gm_status status = GM_OK;
+    for (int f = 0; f < GM_MAX_FLANGES; f++)
+        failed->result.torque[f] = failed->result.speed[f] = (double)NAN;
+    (void)pthread_mutex_lock(&p->memo_lock);
+    size_t n = (size_t)p->n_skipped;
+    gm_skipped_point *grown = gm_resize(p->skipped, n + 1, sizeof *grown);
+    if (grown) {
+        p->skipped = grown;
+        (void)snprintf(grown[n].words, sizeof grown[n].words, "%s", why->message);
+        p->n_skipped++;
+    } else {
+        status = no_memory(error);
+    }
+    (void)pthread_mutex_unlock(&p->memo_lock);
+    return status == GM_OK ? add(p, failed, error) : status;
+}
+
 gm_status gm_point_solve(gm_point_solver *solver, const gm_steady_point *point,
                          gm_steady_result *result, gm_error *error)
 {
@@ -247,9 +305,15 @@ gm_status gm_point_solve(gm_point_solver *solver, const gm_steady_point *point,
     if (find(solver->points, &solved.point, result))
         return GM_OK;
     gm_steady_solver_restart(solver->solver);
-    gm_status status = gm_steady_solve(solver->solver, &solved.point, result, error);
-    if (status != GM_OK)
+    gm_error why = {GM_OK, ""};
+    gm_status status = gm_steady_solve(solver->solver, &solved.point, result, &why);
+    if (solver->points->may_skip && (status == GM_ERR_TOOL || status == GM_ERR_SOLVE)) {
+        status = skip(solver->points, &solved, &why, error);
+        *result = solved.result;
         return status;
+    }
+    if (status != GM_OK)
+        return gm_fail(error, status, "%s", why.message);
     solved.result = *result;
     double t = now();
     status = add(solver->points, &solved, error);

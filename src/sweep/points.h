@@ -10,6 +10,7 @@
 
 #include "map/gm_map_file.h"
 #include "solve/gm_steady_solver.h"
+#include "sweep/gm_sweep.h"
 
 typedef struct gm_points gm_points;
 
@@ -32,6 +33,17 @@ void gm_points_set_watch(gm_points *points, gm_points_watch watch, void *user);
 /** Points that are known, and how many of them came from the journal. Thread-safe. */
 long gm_points_count(gm_points *points);
 long gm_points_resumed(const gm_points *points);
+
+/** From now on points of a measured plant that fail are skipped: their torques are NaN,
+ *  and they are not in the journal. */
+void gm_points_allow_skips(gm_points *points);
+
+/** What was skipped, as sentences with point and reason, in the order of these; they
+ *  belong to the points. */
+int gm_points_skipped(const gm_points *points, const gm_skipped_point **skipped);
+
+/** The largest uncertainty of a torque that was measured, N.m; 0: all were solved. */
+double gm_points_uncertainty(const gm_points *points);
 
 /** A thread's way to the points. */
 typedef struct gm_point_solver gm_point_solver;

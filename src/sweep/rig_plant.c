@@ -243,7 +243,8 @@ static gm_status measure(void *work, const gm_steady_point *point,
         result->torque[f] = engaged ? point->torque[f] : found.torque[f];
         result->speed[f] =
             engaged ? request.target.ratio[f - 1] * point->speed[0] : point->speed[f];
-        result->uncertainty[f] = found.change[f];
+        int stands = point->speed[f] == 0.0 && point->direction[f] == 0.0;
+        result->uncertainty[f] = engaged || stands ? 0.0 : found.change[f];
     }
     return GM_OK;
 }

@@ -13,6 +13,7 @@
 #include "sweep/experiments.h"
 #include "sweep/plan.h"
 #include "sweep/points.h"
+#include "sweep/skips.h"
 
 #include <math.h>
 #include <stdatomic.h>
@@ -306,7 +307,9 @@ static gm_status fill_tables(run *r, int phase)
     if (r->status != GM_OK)
         return r->status;
     count_outstanding(r, phase);
-    return do_all(r, do_row, r->n_jobs);
+    if (do_all(r, do_row, r->n_jobs) == GM_OK)
+        r->status = gm_skips_fill(r->map, &r->error);
+    return r->status;
 }
 
 static gm_status run_phases(run *r, gm_error *error)
@@ -351,20 +354,41 @@ static gm_status prepare(run *r, const gm_plant *plant, const gm_sweep_options *
         status = gm_control_create(r->plan, options, &r->control, error);
     if (status == GM_OK)
         status = gm_points_open(path, r->map, &r->points, error);
+    /* Error control has no use for a place without numbers. */
+    if (status == GM_OK && plant->is->measure && !r->control)
+        gm_points_allow_skips(r->points);
     return status;
 }
 
-static void summarise(const run *r, double deviation, gm_sweep_summary *summary)
+static gm_status summarise(const run *r, double deviation, gm_sweep_summary *summary,
+                           gm_error *error)
 {
+    const gm_skipped_point *skipped = NULL;
     long resumed = gm_points_resumed(r->points);
     *summary = (gm_sweep_summary){
         .points = gm_points_count(r->points) - resumed,
         .resumed = resumed,
         .elapsed = now() - r->started,
         .largest_ratio_deviation = deviation,
+        .uncertainty = gm_points_uncertainty(r->points),
+        .n_skipped = gm_points_skipped(r->points, &skipped),
     };
     if (r->control)
         gm_control_missed(r->control, summary->missed);
+    size_t n = (size_t)summary->n_skipped;
+    summary->skipped = gm_calloc(n, sizeof *skipped);
+    if (!summary->skipped)
+        return gm_fail(error, GM_ERR_MEMORY, "no memory for what was skipped");
+    if (n > 0)
+        memcpy(summary->skipped, skipped, n * sizeof *skipped);
+    return GM_OK;
+}
+
+void gm_sweep_summary_clear(gm_sweep_summary *summary)
+{
+    gm_free(summary->skipped);
+    summary->skipped = NULL;
+    summary->n_skipped = 0;
 }
 
 gm_status gm_sweep_run(const gm_plant *plant, const gm_sweep_options *options,
@@ -381,7 +405,7 @@ gm_status gm_sweep_run(const gm_plant *plant, const gm_sweep_options *options,
     if (status == GM_OK)
         status = gm_points_finish(r.points, r.map, error);
     if (status == GM_OK && summary)
-        summarise(&r, deviation, summary);
+        status = summarise(&r, deviation, summary, error);
     gm_points_close(r.points, status == GM_ERR_INTERRUPTED || status == GM_ERR_IO ||
                                   status == GM_ERR_MEMORY);
     gm_control_destroy(r.control);

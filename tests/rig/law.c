@@ -5,7 +5,7 @@
 #include <string.h>
 
 enum { SPEED = 0, TWIST = 3, SHAFT = 5 }; /* where the states begin */
-static const double round_over = 0.01, largest_step = 1e-4;
+static const double round_over = 0.01, largest_step = 2e-4;
 
 law law_of(law_variant variant)
 {

@@ -63,7 +63,7 @@ typedef struct law_run {
 void law_start(law_run *run, law_variant variant);
 /** dx/dt at x for the run's gears and inputs. */
 void law_rates(const law_run *run, const double *x, double *dx);
-/** Go on by h with steps of at most 1e-4 s (fourth order). */
+/** Go on by h with steps of at most 2e-4 s (fourth order). */
 void law_step(law_run *run, double h);
 /** Speed and torque seen at a flange. */
 double law_speed(const law_run *run, const double *x, int flange);

@@ -68,7 +68,7 @@ static status trouble(instance *it)
     for (volatile int forever = LAW_TROUBLE == 2; forever;)
         continue;
     if (LAW_TROUBLE == 3)
-        it->run.x[0] = NAN;
+        it->run.x[0] = (double)NAN;
     return LAW_TROUBLE == 3 ? OK : (status)(LAW_TROUBLE == 4 ? 3 : 2);
 }
 

@@ -2,10 +2,12 @@
 """Foreign FMUs and plug-ins whose losses are known in closed form, through the command."""
 
 import ctypes
+import json
 import os
 import shutil
 import sqlite3
 import subprocess
+import zipfile
 from pathlib import Path
 
 import foreign
@@ -171,17 +173,24 @@ def test_the_plugin_example_builds_as_its_page_says_and_sweeps(tmp_path):
 @pytest.mark.parametrize("trouble, words", [
     (1, "the model crashed"), (2, "did not answer within"), (3, "is not a number"),
     (4, "answered Error"), (5, "answered Discard")])
-def test_trouble_is_named_with_its_point(tmp_path, trouble, words):
+def test_points_with_trouble_are_skipped_and_named(tmp_path, trouble, words):
     foreign.make_fmu(tmp_path, defines=(f"LAW_TROUBLE={trouble}",))
     rig = foreign.make_rig(tmp_path, extra="experiments: {time_limit_s: 2}\n")
     temporary = tmp_path / "tmp"
     temporary.mkdir()
-    done = gearmap("sweep", rig, "-o", tmp_path / "m.map", *COARSE,
+    done = gearmap("sweep", rig, "-o", tmp_path / "m.map", *COARSE, "--json",
                    env={"TMPDIR": str(temporary), **UNCAUGHT})
-    assert done.returncode == 1
-    assert done.stderr.count("\n") == 1
-    assert words in done.stderr and "gears (2, 0)" in done.stderr
+    assert done.returncode == 3, done.stderr
+    result = json.loads(done.stdout)
+    # above 400 rad/s there are the nodes at 450 and 600, below zero those at -200 and -100:
+    # in one gear, in both directions of rotation (driven there, driving backward)
+    assert 4 <= len(result["skipped"]) <= 8
+    for sentence in result["skipped"]:
+        assert words in sentence and "gears (2, 0)" in sentence
+        assert f"gearmap: warning: skipped: {sentence}\n" in done.stderr
     assert list(temporary.iterdir()) == []
+    # at the output, whose largest loss is 60 N.m; standstill bends most
+    assert 0 < result["uncertainty_Nm"] < 0.1
 
 
 @pytest.mark.parametrize("change, words", [
@@ -194,6 +203,38 @@ def test_a_wrong_token_is_refused(tmp_path, change, words):
     assert done.returncode == 1 and words in done.stderr
     assert done.stderr.count("\n") == 1
     assert not (tmp_path / "m.map").exists()
+
+
+BOMB = ('<?xml version="1.0"?><!DOCTYPE b [<!ENTITY a0 "ha">' + "".join(
+    f'<!ENTITY a{i + 1} "{f"&a{i};" * 10}">' for i in range(12)) +
+    ']><fmiModelDescription fmiVersion="2.0" modelName="&a12;" guid="&a12;"/>')
+
+
+@pytest.mark.parametrize("entries, words", [
+    ({"../outside.txt": "x"}, "would leave its folder"),
+    ({"/tmp/gearmap_outside.txt": "x"}, "would leave its folder"),
+    ({"modelDescription.xml": "<fmiModelDescription"}, "not well-formed"),
+    ({"modelDescription.xml": BOMB}, "law.fmu:"),
+    ({}, "modelDescription.xml is missing"),
+    ({"modelDescription.xml": None}, "has no library for this platform"),
+    ({"modelDescription.xml": None, "binaries/linux64/law.so": "no library"},
+     "cannot be loaded"),
+    ({"modelDescription.xml": b"\0" * (600 << 20)}, "more than 512 MB"),
+])
+def test_malformed_fmus_are_refused_and_nothing_stays(tmp_path, entries, words):
+    inside = tmp_path / "tmp" / "deep"
+    inside.mkdir(parents=True)
+    good = foreign.description("LAW_RIGID", 2, ("cs",), False, foreign.TOKEN)
+    with zipfile.ZipFile(tmp_path / "law.fmu", "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, content in entries.items():
+            archive.writestr(name, good if content is None else content)
+    rig = foreign.make_rig(tmp_path)
+    before = sorted(tmp_path.rglob("*"))
+    done = gearmap("sweep", rig, "-o", tmp_path / "m.map", env={"TMPDIR": str(inside)})
+    assert done.returncode == 1 and words in done.stderr
+    assert done.stderr.count("\n") == 1
+    assert sorted(tmp_path.rglob("*")) == before
+    assert not Path("/tmp/gearmap_outside.txt").exists()
 
 
 @pytest.mark.parametrize("find, put, words", [
