@@ -36,7 +36,8 @@ static void print_overview(FILE *out)
         "            (gearmap help vehicle), of rigs for foreign models (gearmap help "
         "rig)\n\n"
         "Results go to the standard output (--json for machines), words to the standard "
-        "error.\nExit code: 0 done, 1 failed, 2 wrong usage, 3 done but a foreign\nmodel failed at some points.\n",
+        "error.\nExit code: 0 done, 1 failed, 2 wrong usage, 3 done but a foreign\nmodel "
+        "failed at some points.\n",
         out);
 }
 
