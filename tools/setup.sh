@@ -6,7 +6,7 @@
 gm_build_packages=(
   cmake ninja-build gcc libc6-dev pkg-config python3 python3-venv
   libsundials-dev libsuitesparse-dev libfyaml-dev libsqlite3-dev libxml2-dev libzip-dev
-  libmd-dev)
+  libjansson-dev libmd-dev)
 # make and g++: fmpy compiles the sources of an FMU through a CMake project of its own
 gm_test_packages=(libcmocka-dev binutils make g++)
 

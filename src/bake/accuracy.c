@@ -25,22 +25,23 @@ static void text_cell(gm_buffer *page, const char *text)
     gm_buffer_text(page, "</td>");
 }
 
-static double number(const gm_json_node *object, const char *key)
+static double number(const json_t *object, const char *key)
 {
-    return gm_json_member_number(object, key);
+    return gm_member_number(object, key);
 }
 
 /* ---- steady ---- */
 
-static double count_points(const gm_json_node *group)
+static double count_points(const json_t *group)
 {
     double n = 0.0;
-    for (const gm_json_node *c = gm_json_member(group, "cases")->first; c; c = c->next)
-        n += number(c, "points");
+    const json_t *cases = json_object_get(group, "cases");
+    for (size_t i = 0; i < json_array_size(cases); i++)
+        n += number(json_array_get(cases, i), "points");
     return n;
 }
 
-static void group_row(gm_buffer *page, const gm_json_node *group, const char *words)
+static void group_row(gm_buffer *page, const json_t *group, const char *words)
 {
     if (!group)
         return;
@@ -51,7 +52,7 @@ static void group_row(gm_buffer *page, const gm_json_node *group, const char *wo
     gm_buffer_text(page, "</tr>\n");
 }
 
-static void groups(gm_buffer *page, const gm_json_node *steady)
+static void groups(gm_buffer *page, const json_t *steady)
 {
     static const char *const kinds[][2] = {
         {"preselected", "loss, with a preselected gear"},
@@ -62,18 +63,18 @@ static void groups(gm_buffer *page, const gm_json_node *steady)
     gm_page_table(page, "quantity|>points|>largest error|>RMS");
     group_row(page, steady, "loss, one path engaged");
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
-        group_row(page, gm_json_member(gm_json_member(steady, "groups"), kinds[i][0]),
+        group_row(page, json_object_get(json_object_get(steady, "groups"), kinds[i][0]),
                   kinds[i][1]);
     gm_page_table_end(page);
 }
 
-static void gear_row(gm_buffer *page, const gm_json_node *c)
+static void gear_row(gm_buffer *page, const json_t *c)
 {
-    const gm_json_node *worst = gm_json_member(c, "worst");
+    const json_t *worst = json_object_get(c, "worst");
     gm_buffer_text(page, "<tr>");
-    text_cell(page, gm_json_member_text(c, "path"));
+    text_cell(page, gm_member_text(c, "path"));
     cell(page, number(c, "gear"), 9, "");
-    text_cell(page, gm_json_member_text(c, "direction"));
+    text_cell(page, gm_member_text(c, "direction"));
     cell(page, number(c, "largest_loss_Nm"), 4, " N·m");
     cell(page, 100 * number(c, "max_relative"), 3, " %");
     cell(page, 100 * number(c, "rms_relative"), 3, " %");
@@ -82,7 +83,7 @@ static void gear_row(gm_buffer *page, const gm_json_node *c)
     gm_buffer_text(page, "</tr>\n");
 }
 
-static void steady_errors(gm_buffer *page, const gm_json_node *steady)
+static void steady_errors(gm_buffer *page, const json_t *steady)
 {
     gm_buffer_text(page,
                    "<p>This FMU against the detailed model at random points off the "
@@ -95,19 +96,20 @@ static void steady_errors(gm_buffer *page, const gm_json_node *steady)
     gm_page_table(
         page,
         "path|>gear|rotation|>largest loss|>largest error|>RMS|>at speed|>and torque");
-    for (const gm_json_node *c = gm_json_member(steady, "cases")->first; c; c = c->next)
-        gear_row(page, c);
+    const json_t *cases = json_object_get(steady, "cases");
+    for (size_t i = 0; i < json_array_size(cases); i++)
+        gear_row(page, json_array_get(cases, i));
     gm_page_table_end(page);
 }
 
 /* ---- cycles ---- */
 
 /* "rigid", or "rigid (CS, 1 ms)" in Co-Simulation. */
-static void run_name(const gm_json_node *run, char *name, size_t size)
+static void run_name(const json_t *run, char *name, size_t size)
 {
     char step[GM_NUMBER_TEXT];
     const double h = number(run, "communication_step_s");
-    const char *fidelity = gm_json_member_text(run, "fidelity");
+    const char *fidelity = gm_member_text(run, "fidelity");
     if (isfinite(h))
         (void)snprintf(name, size, "%.16s (CS, %s ms)", fidelity,
                        gm_number_text(1e3 * h, 4, step));
@@ -116,12 +118,12 @@ static void run_name(const gm_json_node *run, char *name, size_t size)
 }
 
 /* Column heads end where the text of a table's heads may. */
-static void heads(gm_buffer *page, const char *first, const gm_json_node *cycle)
+static void heads(gm_buffer *page, const char *first, const json_t *cycle)
 {
     char text[512], name[80];
     (void)snprintf(text, sizeof text, "%s", first);
-    for (const gm_json_node *run = gm_passport_first_run(cycle); run;
-         run = gm_passport_next_run(cycle, run)) {
+    const json_t *run;
+    for (size_t i = 0; (run = gm_passport_run(cycle, i)) != NULL; i++) {
         run_name(run, name, sizeof name);
         if (strcspn(name, "<>&|") == strlen(name) &&
             strlen(text) + strlen(name) + 2 < sizeof text)
@@ -156,34 +158,34 @@ static const line figure_lines[] = {
     {"energy lost in the gearset", "errors", "loss_energy_relative", 100.0, " %"},
 };
 
-static void line_cell(gm_buffer *page, const line *l, const gm_json_node *object)
+static void line_cell(gm_buffer *page, const line *l, const json_t *object)
 {
     cell(page,
          l->scale *
-             number(l->inside ? gm_json_member(object, l->inside) : object, l->key),
+             number(l->inside ? json_object_get(object, l->inside) : object, l->key),
          4, l->unit);
 }
 
-static void drive_line(gm_buffer *page, const line *l, const gm_json_node *cycle)
+static void drive_line(gm_buffer *page, const line *l, const json_t *cycle)
 {
     gm_buffer_text(page, "<tr><td>%s</td>", l->words);
-    line_cell(page, l, gm_json_member(cycle, "detailed"));
-    for (const gm_json_node *run = gm_passport_first_run(cycle); run;
-         run = gm_passport_next_run(cycle, run))
+    line_cell(page, l, json_object_get(cycle, "detailed"));
+    const json_t *run;
+    for (size_t i = 0; (run = gm_passport_run(cycle, i)) != NULL; i++)
         line_cell(page, l, run);
     gm_buffer_text(page, "</tr>\n");
 }
 
-static void figure_line(gm_buffer *page, const line *l, const gm_json_node *cycle)
+static void figure_line(gm_buffer *page, const line *l, const json_t *cycle)
 {
     gm_buffer_text(page, "<tr><td>%s</td><td></td>", l->words);
-    for (const gm_json_node *run = gm_passport_first_run(cycle); run;
-         run = gm_passport_next_run(cycle, run))
+    const json_t *run;
+    for (size_t i = 0; (run = gm_passport_run(cycle, i)) != NULL; i++)
         line_cell(page, l, gm_passport_figures(cycle, run));
     gm_buffer_text(page, "</tr>\n");
 }
 
-static void cycle_table(gm_buffer *page, const gm_json_node *cycle)
+static void cycle_table(gm_buffer *page, const json_t *cycle)
 {
     heads(page, "what|>detailed", cycle);
     for (size_t i = 0; i < sizeof drive_lines / sizeof *drive_lines; i++)
@@ -194,30 +196,27 @@ static void cycle_table(gm_buffer *page, const gm_json_node *cycle)
 }
 
 /* Row i of an array of the drive's figures; NULL where it ends. */
-static const gm_json_node *row_of(const gm_json_node *cycle, const gm_json_node *run,
-                                  const char *array, int i)
+static const json_t *row_of(const json_t *cycle, const json_t *run, const char *array,
+                            size_t i)
 {
-    const gm_json_node *rows = gm_json_member(gm_passport_figures(cycle, run), array);
-    const gm_json_node *row = rows ? rows->first : NULL;
-    for (; row && i > 0; i--)
-        row = row->next;
-    return row;
+    const json_t *rows = json_object_get(gm_passport_figures(cycle, run), array);
+    return json_array_get(rows, i);
 }
 
 /* All drives have the same gears in the same order: they follow one plan. */
-static void gear_losses(gm_buffer *page, const gm_json_node *cycle)
+static void gear_losses(gm_buffer *page, const json_t *cycle)
 {
-    const gm_json_node *first = gm_passport_first_run(cycle), *gear;
+    const json_t *first = gm_passport_run(cycle, 0), *gear, *run;
     if (!row_of(cycle, first, "loss_by_gear", 0))
         return;
     gm_buffer_text(page, "<p>Energy lost while the wheels are driven in a gear:</p>\n");
     heads(page, "gear|>time|>detailed", cycle);
-    for (int i = 0; (gear = row_of(cycle, first, "loss_by_gear", i)) != NULL; i++) {
+    for (size_t i = 0; (gear = row_of(cycle, first, "loss_by_gear", i)) != NULL; i++) {
         gm_buffer_text(page, "<tr>");
         cell(page, number(gear, "gear"), 9, "");
         cell(page, number(gear, "time_s"), 4, " s");
         cell(page, number(gear, "detailed_J"), 5, " J");
-        for (const gm_json_node *run = first; run; run = gm_passport_next_run(cycle, run))
+        for (size_t k = 0; (run = gm_passport_run(cycle, k)) != NULL; k++)
             cell(page, number(row_of(cycle, run, "loss_by_gear", i), "reduced_J"), 5,
                  " J");
         gm_buffer_text(page, "</tr>\n");
@@ -225,32 +224,36 @@ static void gear_losses(gm_buffer *page, const gm_json_node *cycle)
     gm_page_table_end(page);
 }
 
-static void worst_places(gm_buffer *page, const gm_json_node *cycle)
+static void worst_of(gm_buffer *page, const json_t *cycle, const json_t *run)
 {
     char name[80];
+    const json_t *place;
+    run_name(run, name, sizeof name);
+    for (size_t i = 0; (place = row_of(cycle, run, "worst", i)) != NULL; i++) {
+        gm_buffer_text(page, "<tr>");
+        text_cell(page, i == 0 ? name : "");
+        cell(page, number(place, "output_torque_5Hz_Nm"), 3, " N·m");
+        cell(page, number(place, "time_s"), 4, " s");
+        text_cell(page, gm_member_text(place, "cause"));
+        gm_buffer_text(page, "</tr>\n");
+    }
+}
+
+static void worst_places(gm_buffer *page, const json_t *cycle)
+{
+    const json_t *run;
     gm_buffer_text(page, "<p>The largest differences of output torque below 5 Hz, and "
                          "what happens there:</p>\n");
     gm_page_table(page, "component|>difference|>at|what happens");
-    for (const gm_json_node *run = gm_passport_first_run(cycle); run;
-         run = gm_passport_next_run(cycle, run)) {
-        const gm_json_node *place;
-        run_name(run, name, sizeof name);
-        for (int i = 0; (place = row_of(cycle, run, "worst", i)) != NULL; i++) {
-            gm_buffer_text(page, "<tr>");
-            text_cell(page, i == 0 ? name : "");
-            cell(page, number(place, "output_torque_5Hz_Nm"), 3, " N·m");
-            cell(page, number(place, "time_s"), 4, " s");
-            text_cell(page, gm_json_member_text(place, "cause"));
-            gm_buffer_text(page, "</tr>\n");
-        }
-    }
+    for (size_t i = 0; (run = gm_passport_run(cycle, i)) != NULL; i++)
+        worst_of(page, cycle, run);
     gm_page_table_end(page);
 }
 
-static void cycle_errors(gm_buffer *page, const gm_json_node *cycle)
+static void cycle_errors(gm_buffer *page, const json_t *cycle)
 {
     gm_buffer_text(page, "<h3>In a car over the cycle ");
-    gm_page_escaped(page, gm_json_member_text(cycle, "cycle"));
+    gm_page_escaped(page, gm_member_text(cycle, "cycle"));
     gm_buffer_text(page, "</h3>\n<p>One vehicle, driven twice: with the detailed gearset "
                          "and with this FMU. ");
     gm_page_number(page, "The cycle has ", number(cycle, "duration_s"), 5,
@@ -262,7 +265,7 @@ static void cycle_errors(gm_buffer *page, const gm_json_node *cycle)
 
 void gm_accuracy_write(const gm_passport *passport, gm_buffer *page)
 {
-    const gm_json_node *steady = gm_passport_steady(passport);
+    const json_t *steady = gm_passport_steady(passport);
     gm_page_heading(page, "Measured accuracy");
     if (passport->n == 0) {
         gm_buffer_text(page, "<p>Not measured when this file was made.</p>\n");

@@ -1,344 +1,151 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 #include "bake/passport.h"
 
-#include "bake/json_put.h"
-#include "base/alloc.h"
-
+#include <stdbool.h>
 #include <string.h>
 
 #define FORMAT 1
 #define RPM 9.54929658551372 /* per rad/s */
 #define KELVIN 273.15
 
-/* ---- what a result must have ---- */
-
-typedef struct member {
-    const char *key;
-    gm_json_kind kind;
-} member;
-
-static const member of_steady[] = {
-    {"points", GM_JSON_NUMBER},       {"seed", GM_JSON_NUMBER},
-    {"max_relative", GM_JSON_NUMBER}, {"rms_relative", GM_JSON_NUMBER},
-    {"cases", GM_JSON_ARRAY},         {"groups", GM_JSON_OBJECT},
-};
-static const member of_group[] = {
-    {"max_relative", GM_JSON_NUMBER},
-    {"rms_relative", GM_JSON_NUMBER},
-    {"cases", GM_JSON_ARRAY},
-};
-static const member of_case[] = {
-    {"path", GM_JSON_TEXT},           {"direction", GM_JSON_TEXT},
-    {"points", GM_JSON_NUMBER},       {"largest_loss_Nm", GM_JSON_NUMBER},
-    {"max_Nm", GM_JSON_NUMBER},       {"rms_Nm", GM_JSON_NUMBER},
-    {"max_relative", GM_JSON_NUMBER}, {"rms_relative", GM_JSON_NUMBER},
-    {"worst", GM_JSON_OBJECT},
-};
-static const member of_cycle[] = {
-    {"cycle", GM_JSON_TEXT},
-    {"duration_s", GM_JSON_NUMBER},
-    {"detailed", GM_JSON_OBJECT},
-};
-static const member of_drive[] = {
-    {"cpu_s", GM_JSON_NUMBER},
-    {"real_time_factor", GM_JSON_NUMBER},
-};
-static const member of_figures[] = {
-    {"cpu_saved", GM_JSON_NUMBER},
-    {"errors", GM_JSON_OBJECT},
-};
-
-/* The first member that is missing or of another kind; NULL: none. */
-static const char *lacks(const gm_json_node *object, const member *members, size_t n)
-{
-    for (size_t i = 0; i < n; i++) {
-        const gm_json_node *found = gm_json_member(object, members[i].key);
-        if (!found || found->kind != members[i].kind)
-            return members[i].key;
-    }
-    return NULL;
-}
-
-#define LACKS(object, members) lacks(object, members, sizeof members / sizeof *members)
-
-static const char *cases_lack(const gm_json_node *object)
-{
-    const char *missing = NULL;
-    const gm_json_node *cases = gm_json_member(object, "cases");
-    for (const gm_json_node *c = cases->first; c && !missing; c = c->next)
-        missing = LACKS(c, of_case);
-    return missing;
-}
-
-static const char *steady_lacks(const gm_json_node *result)
-{
-    const char *missing = LACKS(result, of_steady);
-    if (!missing)
-        missing = cases_lack(result);
-    if (missing)
-        return missing;
-    const gm_json_node *groups = gm_json_member(result, "groups");
-    for (const gm_json_node *g = groups->first; g && !missing; g = g->next) {
-        missing = LACKS(g, of_group);
-        if (!missing)
-            missing = cases_lack(g);
-    }
-    return missing;
-}
-
-static const char *cycle_lacks(const gm_json_node *result)
-{
-    const char *missing = LACKS(result, of_cycle);
-    if (!missing)
-        missing = LACKS(gm_json_member(result, "detailed"), of_drive);
-    if (!missing && !gm_passport_first_run(result))
-        return "reduced";
-    for (const gm_json_node *run = gm_passport_first_run(result); run && !missing;
-         run = gm_passport_next_run(result, run)) {
-        missing = LACKS(run, of_drive);
-        if (!missing && !*gm_json_member_text(run, "fidelity"))
-            missing = "fidelity";
-        if (!missing)
-            missing = LACKS(gm_passport_figures(result, run), of_figures);
-    }
-    return missing;
-}
-
-static gm_status check_form(const char *name, const gm_json_node *result, gm_error *error)
-{
-    const bool steady = gm_json_member(result, "cases"),
-               cycle = gm_json_member(result, "cycle");
-    const char *missing = steady || cycle ? NULL : "cases";
-    if (!gm_json_member(result, "measured"))
-        missing = "measured";
-    if (!missing && steady)
-        missing = steady_lacks(result);
-    if (!missing && cycle)
-        missing = cycle_lacks(result);
-    if (!missing)
-        return GM_OK;
-    return gm_fail(
-        error, GM_ERR_FORMAT,
-        "%s: is not what gearmap verify --json prints: '%s' is missing or wrong", name,
-        missing);
-}
-
-/* ---- whose result it is ---- */
-
-static gm_status check_origin(const char *name, const gm_json_node *result,
-                              const gm_map *map, const char *guid, gm_error *error)
-{
-    const gm_json_node *measured = gm_json_member(result, "measured");
-    const char *map_hash = gm_json_member_text(measured, "map_hash"),
-               *measured_guid = gm_json_member_text(measured, "fmu_guid");
-    if (strcmp(map_hash, map->content_hash) != 0)
-        return gm_fail(
-            error, GM_ERR_MODEL,
-            "%s: was measured with another map (content hash %.16s, not %.16s)", name,
-            *map_hash ? map_hash : "unknown", map->content_hash);
-    if (strcmp(gm_json_member_text(measured, "description_sha256"), map->input_sha256) !=
-        0)
-        return gm_fail(error, GM_ERR_MODEL,
-                       "%s: was measured against another description than the map's",
-                       name);
-    if (strcmp(measured_guid, guid) != 0)
-        return gm_fail(error, GM_ERR_MODEL,
-                       "%s: was measured on another component of this map (GUID %.38s, "
-                       "not %s)",
-                       name, *measured_guid ? measured_guid : "unknown", guid);
-    return GM_OK;
-}
-
-static gm_status read_one(const gm_bake_result *result, const gm_map *map,
-                          const char *guid, gm_json_tree **tree, gm_error *error)
-{
-    gm_json_tree *made = NULL;
-    gm_status status = gm_json_read(result->name, result->json, &made, error);
-    if (status == GM_OK)
-        status = check_form(result->name, gm_json_root(made), error);
-    if (status == GM_OK)
-        status = check_origin(result->name, gm_json_root(made), map, guid, error);
-    if (status == GM_OK)
-        *tree = made;
-    else
-        gm_json_tree_destroy(made);
-    return status;
-}
-
-gm_status gm_bake_check_result(const gm_bake_result *result, const gm_map *map,
-                               const char *guid, gm_error *error)
-{
-    gm_json_tree *tree = NULL;
-    gm_status status = read_one(result, map, guid, &tree, error);
-    gm_json_tree_destroy(tree);
-    return status;
-}
-
-/* ---- all results ---- */
-
-static int count_steady(const gm_passport *passport)
-{
-    int n = 0;
-    for (int i = 0; i < passport->n; i++)
-        n += gm_json_member(gm_json_root(passport->tree[i]), "cases") != NULL;
-    return n;
-}
-
-gm_status gm_passport_read(int n, const gm_bake_result *results, const gm_map *map,
-                           const char *guid, gm_passport *passport, gm_error *error)
-{
-    gm_passport made = {.tree = gm_calloc((size_t)n, sizeof *made.tree)};
-    gm_status status = GM_OK;
-    if (!made.tree)
-        return gm_fail(error, GM_ERR_MEMORY, "no memory for the passport");
-    for (; made.n < n && status == GM_OK; made.n += status == GM_OK)
-        status = read_one(&results[made.n], map, guid, &made.tree[made.n], error);
-    if (status == GM_OK && count_steady(&made) > 1)
-        status = gm_fail(error, GM_ERR_FORMAT,
-                         "%s: a passport has one result with steady errors, not %d",
-                         results[n - 1].name, count_steady(&made));
-    if (status == GM_OK)
-        *passport = made;
-    else
-        gm_passport_clear(&made);
-    return status;
-}
-
-void gm_passport_clear(gm_passport *passport)
-{
-    for (int i = 0; i < passport->n; i++)
-        gm_json_tree_destroy(passport->tree[i]);
-    gm_free(passport->tree);
-    *passport = (gm_passport){0};
-}
-
 /* ---- access ---- */
 
-const gm_json_node *gm_passport_steady(const gm_passport *passport)
+static bool is_steady(const json_t *result)
+{
+    return json_object_get(result, "cases") != NULL;
+}
+
+const json_t *gm_passport_steady(const gm_passport *passport)
 {
     for (int i = 0; i < passport->n; i++)
-        if (gm_json_member(gm_json_root(passport->tree[i]), "cases"))
-            return gm_json_root(passport->tree[i]);
+        if (is_steady(passport->result[i]))
+            return passport->result[i];
     return NULL;
 }
 
-const gm_json_node *gm_passport_cycle(const gm_passport *passport, int i)
+const json_t *gm_passport_cycle(const gm_passport *passport, int i)
 {
-    const gm_json_node *result = gm_json_root(passport->tree[i]);
-    return gm_json_member(result, "cycle") ? result : NULL;
+    const json_t *result = passport->result[i];
+    return json_object_get(result, "cycle") ? result : NULL;
 }
 
-const gm_json_node *gm_passport_first_run(const gm_json_node *cycle)
+const json_t *gm_passport_run(const json_t *cycle, size_t i)
 {
-    const gm_json_node *reduced = gm_json_member(cycle, "reduced");
-    return reduced && reduced->kind == GM_JSON_ARRAY ? reduced->first : reduced;
+    const json_t *reduced = json_object_get(cycle, "reduced");
+    if (json_is_array(reduced))
+        return json_array_get(reduced, i);
+    return i == 0 ? reduced : NULL;
 }
 
-const gm_json_node *gm_passport_next_run(const gm_json_node *cycle,
-                                         const gm_json_node *run)
+const json_t *gm_passport_figures(const json_t *cycle, const json_t *run)
 {
-    return run == gm_json_member(cycle, "reduced") ? NULL : run->next;
+    return run == json_object_get(cycle, "reduced") ? cycle : run;
 }
 
-const gm_json_node *gm_passport_figures(const gm_json_node *cycle,
-                                        const gm_json_node *run)
+/* ---- the document: functions that make a part of it give NULL without memory ---- */
+
+/* A text that may be empty, which is null then. */
+static json_t *text_or_null(const char *text)
 {
-    return run == gm_json_member(cycle, "reduced") ? cycle : run;
+    return gm_document_text(*text ? text : NULL);
 }
 
-/* ---- the document ---- */
-
-static const char *or_null(const char *text)
+static json_t *model_of(const gm_map *map)
 {
-    return *text ? text : NULL;
+    return json_pack("{s:o, s:o, s:o}", "name", gm_document_text(map->name), "title",
+                     gm_document_text(map->title), "description_sha256",
+                     text_or_null(map->input_sha256));
 }
 
-static void put_origin(gm_json_put *put, const gm_passport_component *c)
+static json_t *map_of(const gm_map *map)
 {
-    const gm_map *map = c->map;
-    gm_json_put_open(put, "model", '{');
-    gm_json_put_text(put, "name", map->name);
-    gm_json_put_text(put, "title", map->title);
-    gm_json_put_text(put, "description_sha256", or_null(map->input_sha256));
-    gm_json_put_close(put, '}');
-    gm_json_put_open(put, "map", '{');
-    gm_json_put_text(put, "content_hash", or_null(map->content_hash));
-    gm_json_put_text(put, "tool_version", map->tool_version);
-    gm_json_put_text(put, "options", map->options);
-    gm_json_put_number(put, "speed_max_rpm", map->speed_max * RPM);
-    gm_json_put_number(put, "torque_max_Nm", map->torque_max);
-    gm_json_put_number(put, "oil_temperature_degC", map->oil_temperature - KELVIN);
-    gm_json_put_close(put, '}');
-    gm_json_put_open(put, "fmu", '{');
-    gm_json_put_text(put, "guid", c->guid);
-    gm_json_put_text(put, "interpolation", c->interpolation);
-    gm_json_put_text(put, "platform", GM_FMI2_PLATFORM);
-    gm_json_put_text(put, "binary_sha256", c->library_sha256);
-    gm_json_put_close(put, '}');
+    return json_pack("{s:o, s:o, s:o, s:f, s:f, s:f}", "content_hash",
+                     text_or_null(map->content_hash), "tool_version",
+                     gm_document_text(map->tool_version), "options",
+                     gm_document_text(map->options), "speed_max_rpm",
+                     map->speed_max * RPM, "torque_max_Nm", map->torque_max,
+                     "oil_temperature_degC", map->oil_temperature - KELVIN);
 }
 
-static void put_members(gm_json_put *put, const gm_json_node *from,
-                        const char *const *keys)
+static json_t *fmu_of(const gm_passport_component *c)
 {
-    for (; *keys; keys++)
-        gm_json_put_node(put, *keys, gm_json_member(from, *keys));
+    return json_pack("{s:o, s:o, s:s, s:o}", "guid", gm_document_text(c->guid),
+                     "interpolation", gm_document_text(c->interpolation), "platform",
+                     GM_FMI2_PLATFORM, "binary_sha256",
+                     gm_document_text(c->library_sha256));
 }
 
-static void put_steady(gm_json_put *put, const gm_json_node *result)
+/* Copy members; one that is missing becomes null. */
+static bool copy_members(json_t *to, const json_t *from, const char *const *keys)
+{
+    bool copied = true;
+    for (; *keys; keys++) {
+        json_t *member = json_object_get(from, *keys);
+        copied &= json_object_set(to, *keys, member ? member : json_null()) == 0;
+    }
+    return copied;
+}
+
+static json_t *kept(json_t *made, bool complete)
+{
+    if (complete)
+        return made;
+    json_decref(made);
+    return NULL;
+}
+
+static json_t *steady_of(const json_t *result)
 {
     static const char *const keys[] = {"measured",     "points", "seed",   "max_relative",
                                        "rms_relative", "cases",  "groups", NULL};
-    if (!result) {
-        gm_json_put_text(put, "steady", NULL);
-        return;
-    }
-    gm_json_put_open(put, "steady", '{');
-    put_members(put, result, keys);
-    gm_json_put_close(put, '}');
+    if (!result)
+        return json_null();
+    json_t *made = json_object();
+    return kept(made, copy_members(made, result, keys));
 }
 
 /* A drive with its figures, which stand beside it where there is one drive only. */
-static void put_run(gm_json_put *put, const gm_json_node *cycle, const gm_json_node *run)
+static json_t *run_of(const json_t *cycle, const json_t *run)
 {
     static const char *const keys[] = {
         "cpu_saved", "errors", "differences", "loss_by_gear", "shifts", "worst", NULL};
-    const gm_json_node *figures = gm_passport_figures(cycle, run);
-    gm_json_put_open(put, NULL, '{');
-    for (const gm_json_node *n = run->first; n; n = n->next)
-        gm_json_put_node(put, n->key, n);
-    if (figures != run)
-        put_members(put, figures, keys);
-    gm_json_put_close(put, '}');
+    const json_t *figures = gm_passport_figures(cycle, run);
+    json_t *made = json_copy((json_t *)run);
+    return kept(made, made && (figures == run || copy_members(made, figures, keys)));
 }
 
-static void put_cycle(gm_json_put *put, const gm_json_node *cycle)
+static json_t *cycle_of(const json_t *cycle)
 {
     static const char *const keys[] = {
         "measured",       "cycle",     "duration_s", "distance_m",
         "vehicle_sha256", "tolerance", "detailed",   NULL};
-    gm_json_put_open(put, NULL, '{');
-    put_members(put, cycle, keys);
-    gm_json_put_open(put, "reduced", '[');
-    for (const gm_json_node *run = gm_passport_first_run(cycle); run;
-         run = gm_passport_next_run(cycle, run))
-        put_run(put, cycle, run);
-    gm_json_put_close(put, ']');
-    gm_json_put_close(put, '}');
+    json_t *made = json_object(), *runs = json_array();
+    const json_t *run;
+    bool complete = copy_members(made, cycle, keys);
+    for (size_t i = 0; (run = gm_passport_run(cycle, i)) != NULL; i++)
+        complete &= json_array_append_new(runs, run_of(cycle, run)) == 0;
+    complete &= json_object_set_new(made, "reduced", runs) == 0;
+    return kept(made, complete);
+}
+
+static json_t *cycles_of(const gm_passport *passport)
+{
+    json_t *made = json_array();
+    bool complete = true;
+    for (int i = 0; i < passport->n; i++)
+        if (gm_passport_cycle(passport, i))
+            complete &= json_array_append_new(
+                            made, cycle_of(gm_passport_cycle(passport, i))) == 0;
+    return kept(made, complete);
 }
 
 void gm_passport_write(const gm_passport *passport,
                        const gm_passport_component *component, gm_buffer *buffer)
 {
-    gm_json_put put = {.buffer = buffer};
-    gm_json_put_open(&put, NULL, '{');
-    gm_json_put_number(&put, "passport", FORMAT);
-    put_origin(&put, component);
-    put_steady(&put, gm_passport_steady(passport));
-    gm_json_put_open(&put, "cycles", '[');
-    for (int i = 0; i < passport->n; i++)
-        if (gm_passport_cycle(passport, i))
-            put_cycle(&put, gm_passport_cycle(passport, i));
-    gm_json_put_close(&put, ']');
-    gm_json_put_close(&put, '}');
-    gm_buffer_text(buffer, "\n");
+    json_t *document = json_pack(
+        "{s:i, s:o, s:o, s:o, s:o, s:o}", "passport", FORMAT, "model",
+        model_of(component->map), "map", map_of(component->map), "fmu", fmu_of(component),
+        "steady", steady_of(gm_passport_steady(passport)), "cycles", cycles_of(passport));
+    gm_document_write(document, buffer);
+    json_decref(document);
 }

@@ -8,12 +8,12 @@
 
 #include "bake/buffer.h"
 #include "bake/gm_bake.h"
-#include "base/json_tree.h"
+#include "bake/json_document.h"
 
 /** Results as they were read, in their order. Empty: nothing was measured. */
 typedef struct gm_passport {
     int n;
-    gm_json_tree **tree; /* [n] */
+    json_t **result; /* [n] */
 } gm_passport;
 
 /** Read and check n results for the component of this map and GUID. GM_ERR_FORMAT when
@@ -35,18 +35,16 @@ void gm_passport_write(const gm_passport *passport,
                        const gm_passport_component *component, gm_buffer *buffer);
 
 /** The result with steady errors; NULL: there is none. */
-const gm_json_node *gm_passport_steady(const gm_passport *passport);
+const json_t *gm_passport_steady(const gm_passport *passport);
 
 /** Result i if it has a cycle, else NULL. */
-const gm_json_node *gm_passport_cycle(const gm_passport *passport, int i);
+const json_t *gm_passport_cycle(const gm_passport *passport, int i);
 
-/** Drives with the component: the first of a cycle, the one after another. A result with
- *  one drive has it as an object, one with several as an array. */
-const gm_json_node *gm_passport_first_run(const gm_json_node *cycle);
-const gm_json_node *gm_passport_next_run(const gm_json_node *cycle,
-                                         const gm_json_node *run);
+/** Drive i of a cycle with the component, NULL after the last. A result with one drive
+ *  has it as an object, one with several as an array. */
+const json_t *gm_passport_run(const json_t *cycle, size_t i);
+
 /** The object that has the run's errors. */
-const gm_json_node *gm_passport_figures(const gm_json_node *cycle,
-                                        const gm_json_node *run);
+const json_t *gm_passport_figures(const json_t *cycle, const json_t *run);
 
 #endif

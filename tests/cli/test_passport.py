@@ -243,7 +243,11 @@ def test_files_that_are_no_results(example_map, tmp_path):
     broken = tmp_path / "broken.json"
     broken.write_text('{"cases": [1,\n')
     assert refused(example_map, broken, tmp_path) == \
-        f"{broken}:2: is not JSON: expected a value"
+        f"{broken}:2: is not JSON: ']' expected near end of file"
+    (tmp_path / "out").rmdir()
+    broken.write_text('{"cases": [],\n"cases": []}')
+    assert refused(example_map, broken, tmp_path) == \
+        f"{broken}:2: is not JSON: duplicate object key near '\"cases\"'"
     (tmp_path / "out").rmdir()
     broken.write_bytes(b'{"cases": 1}\0')
     assert refused(example_map, broken, tmp_path) == f"{broken}: is no text"
