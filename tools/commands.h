@@ -18,6 +18,7 @@ extern const gm_command gm_command_verify;
 extern const gm_command gm_command_simulate;
 extern const gm_command gm_command_report;
 extern const gm_command gm_command_batch;
+extern const gm_command gm_command_rig;
 
 /** Exit code of a command that came to this status; its sentence goes to stderr. */
 int gm_command_end(gm_status status, const gm_error *error);

@@ -17,8 +17,9 @@
 #define UNWRITABLE "the standard output could not be written"
 
 static const gm_command *const commands[] = {
-    &gm_command_check,  &gm_command_sweep,    &gm_command_bake,   &gm_command_reduce,
-    &gm_command_verify, &gm_command_simulate, &gm_command_report, &gm_command_batch,
+    &gm_command_check,  &gm_command_sweep,  &gm_command_bake,
+    &gm_command_reduce, &gm_command_verify, &gm_command_simulate,
+    &gm_command_report, &gm_command_batch,  &gm_command_rig,
 };
 enum { N_COMMANDS = sizeof commands / sizeof commands[0] };
 
@@ -34,7 +35,7 @@ static void print_overview(FILE *out)
         "  help      print the help of a command (gearmap help COMMAND)\n"
         "            or a file: of descriptions (gearmap help format), of vehicles\n"
         "            (gearmap help vehicle), of rigs for foreign models (gearmap help "
-        "rig)\n\n"
+        "rig-file)\n\n"
         "Results go to the standard output (--json for machines), words to the standard "
         "error.\nExit code: 0 done, 1 failed, 2 wrong usage, 3 done but a foreign\nmodel "
         "failed at some points.\n",
@@ -135,7 +136,7 @@ static int help(int argc, char **argv)
         gm_vehicle_help(write_text, stdout);
         return GM_EXIT_DONE;
     }
-    if (strcmp(argv[0], "rig") == 0) {
+    if (strcmp(argv[0], "rig-file") == 0) {
         gm_rig_file_help(write_text, stdout);
         return GM_EXIT_DONE;
     }

@@ -19,6 +19,10 @@ void gm_describe_date(xml *x);
 /** DefaultExperiment. */
 void gm_describe_experiment(xml *x);
 
+/** The annotation that says what the component was made from (the map's input, and its
+ *  content where it has one), and what gears it has. */
+void gm_describe_origin(xml *x);
+
 /** How a variable differs from what core/gm_vars.def says. */
 typedef struct scalar_form {
     double nominal;          /* 0: the list's */

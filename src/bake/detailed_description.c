@@ -175,19 +175,6 @@ static void write_model_exchange(xml *x, const char *identifier)
     gm_xml_end(x);
 }
 
-static void write_origin(xml *x)
-{
-    gm_xml_start(x, "VendorAnnotations");
-    gm_xml_start(x, "Tool");
-    gm_xml_text(x, "name", "gearmap");
-    gm_xml_start(x, "Gearset");
-    gm_xml_text(x, "descriptionSha256", x->map->input_sha256);
-    gm_xml_number(x, "oilTemperature", x->map->oil_temperature); /* K */
-    gm_xml_end(x);
-    gm_xml_end(x);
-    gm_xml_end(x);
-}
-
 /* ---- variables ---- */
 
 static void write_inner(writing *w, int i, const unit_type *units, int n_units)
@@ -381,7 +368,7 @@ static void write_document(writing *w)
     write_model_exchange(x, w->subject->identifier);
     gm_describe_types(x, units, n_units);
     gm_describe_experiment(x);
-    write_origin(x);
+    gm_describe_origin(x);
     write_variables(w, units, n_units);
     gm_xml_start(x, "ModelStructure");
     write_outputs(w);
@@ -394,6 +381,24 @@ static void write_document(writing *w)
 
 /* ---- all ---- */
 
+static gm_status fill_gear(const gm_gearset *gearset, int p, int number,
+                           gm_map_path *path, gm_map_gear *gear, gm_error *error)
+{
+    const gm_description *d = gm_gearset_description(gearset);
+    int engaged[GM_MAX_INPUT_PATHS] = {0};
+    gm_kinematics kinematics;
+    for (int q = 0; q < d->n_paths; q++)
+        engaged[q] = gm_path_rest_gear(&d->paths[q]);
+    engaged[p] = number;
+    gm_status status = gm_gearset_kinematics(gearset, engaged, &kinematics, error);
+    if (status != GM_OK)
+        return status;
+    gear->number = number;
+    gear->ratio = kinematics.ratio[p];
+    path->inertia = kinematics.inertia[p];
+    return GM_OK;
+}
+
 /* Paths and gears in the form that the common parts read. */
 static gm_status fill_map(const gm_gearset *gearset, gm_map *map, gm_error *error)
 {
@@ -401,14 +406,19 @@ static gm_status fill_map(const gm_gearset *gearset, gm_map *map, gm_error *erro
     (void)snprintf(map->name, sizeof map->name, "%.*s", GM_MAP_TEXT - 1, d->name);
     (void)snprintf(map->input_sha256, sizeof map->input_sha256, "%s", d->sha256);
     map->oil_temperature = d->oil.temperature;
+    map->speed_max = d->speed_max;
+    map->torque_max = d->torque_max;
     for (int p = 0; p < d->n_paths; p++) {
         const gm_path_part *path = &d->paths[p];
         gm_status status = gm_map_set_path(map, p, path->id.name, path->n_gears, error);
         if (status != GM_OK)
             return status;
         map->paths[p].sync_torque = gm_gearset_sync_torque(gearset, p);
-        for (int g = 0; g < path->n_gears; g++)
-            map->paths[p].gears[g].number = path->gears[g].number;
+        for (int g = 0; g < path->n_gears && status == GM_OK; g++)
+            status = fill_gear(gearset, p, path->gears[g].number, &map->paths[p],
+                               &map->paths[p].gears[g], error);
+        if (status != GM_OK)
+            return status;
     }
     return GM_OK;
 }

@@ -115,16 +115,34 @@ void gm_describe_experiment(xml *x)
     gm_xml_end(x);
 }
 
-/* What the component was made from, so that a verification can tell. */
-static void write_origin(xml *x)
+static void write_gears(xml *x, int p)
 {
+    const gm_map_path *path = &x->map->paths[p];
+    for (int g = 0; g < path->n_gears; g++) {
+        gm_xml_start(x, "Gear");
+        gm_xml_foreign_text(x, "path", path->name);
+        gm_xml_integer(x, "number", path->gears[g].number);
+        gm_xml_number(x, "ratio", path->gears[g].ratio);
+        gm_xml_number(x, "inputInertia", path->inertia); /* kg.m2 */
+        gm_xml_end(x);
+    }
+}
+
+void gm_describe_origin(xml *x)
+{
+    const gm_map *map = x->map;
     gm_xml_start(x, "VendorAnnotations");
     gm_xml_start(x, "Tool");
     gm_xml_text(x, "name", "gearmap");
     gm_xml_start(x, "Gearset");
-    gm_xml_foreign_text(x, "descriptionSha256", x->map->input_sha256);
-    gm_xml_foreign_text(x, "mapContentHash", x->map->content_hash);
-    gm_xml_number(x, "oilTemperature", x->map->oil_temperature); /* K */
+    gm_xml_foreign_text(x, "descriptionSha256", map->input_sha256);
+    if (map->content_hash[0])
+        gm_xml_foreign_text(x, "mapContentHash", map->content_hash);
+    gm_xml_number(x, "oilTemperature", map->oil_temperature); /* K */
+    gm_xml_number(x, "speedMax", map->speed_max);             /* rad/s */
+    gm_xml_number(x, "torqueMax", map->torque_max);           /* N.m */
+    for (int p = 0; p < map->n_paths; p++)
+        write_gears(x, p);
     gm_xml_end(x);
     gm_xml_end(x);
     gm_xml_end(x);
@@ -236,7 +254,7 @@ static void write_document(xml *x, const gm_description_options *options)
     write_co_simulation(x, options);
     gm_describe_types(x, units, n_units);
     gm_describe_experiment(x);
-    write_origin(x);
+    gm_describe_origin(x);
     write_variables(x);
     gm_model_structure_write(x);
     gm_xml_end(x);

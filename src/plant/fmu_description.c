@@ -7,6 +7,7 @@
 #include "base/alloc.h"
 #include "base/text.h"
 #include "plant/fmu_exchange.h"
+#include "plant/fmu_origin.h"
 
 #include <libxml/parser.h>
 #include <libxml/tree.h>
@@ -30,6 +31,16 @@ char *gm_fmu_attribute(xmlNode *node, const char *name)
     char *copy = value ? gm_strdup((const char *)value) : NULL;
     xmlFree(value);
     return copy;
+}
+
+double gm_fmu_number(xmlNode *node, const char *name, double otherwise)
+{
+    xmlChar *text = node ? xmlGetProp(node, BAD_CAST name) : NULL;
+    double value = otherwise;
+    if (text)
+        (void)gm_text_to_double((const char *)text, &value);
+    xmlFree(text);
+    return value;
 }
 
 bool gm_fmu_read_reference(const char *text, unsigned *reference)
@@ -91,8 +102,8 @@ static xmlNode *type_node(xmlNode *node, int version)
 }
 
 /* An attribute that may be missing; no memory is told apart from that. */
-static gm_status read_optional(xmlNode *node, const char *name, const char *archive,
-                               char **value, gm_error *error)
+gm_status gm_fmu_optional(xmlNode *node, const char *name, const char *archive,
+                          char **value, gm_error *error)
 {
     *value = gm_fmu_attribute(node, name);
     if (*value || !xmlHasProp(node, BAD_CAST name))
@@ -100,19 +111,60 @@ static gm_status read_optional(xmlNode *node, const char *name, const char *arch
     return gm_fail(error, GM_ERR_MEMORY, "no memory to read %s", archive);
 }
 
-/* The element with the unit: the variable's own or that of the type it declares. */
-static xmlNode *unit_node(xmlNode *root, xmlNode *type)
+/* The element of the type that a variable declares, or NULL. */
+static xmlNode *declared_type(xmlNode *root, xmlNode *type)
 {
     xmlNode *list = gm_fmu_child(root, "TypeDefinitions"), *found = NULL;
     xmlChar *declared = xmlGetProp(type, BAD_CAST "declaredType");
-    if (xmlHasProp(type, BAD_CAST "unit") || !list || !declared)
-        list = NULL;
-    for (xmlNode *node = list ? list->children : NULL; node && !found; node = node->next)
+    for (xmlNode *node = list && declared ? list->children : NULL; node && !found;
+         node = node->next)
         if (node->type == XML_ELEMENT_NODE && says(node, "name", (const char *)declared))
             found = node;
     xmlFree(declared);
-    xmlNode *inner = found ? gm_fmu_child(found, "Real") : NULL;
-    return inner ? inner : found ? found : type;
+    for (xmlNode *inner = found ? found->children : NULL; inner; inner = inner->next)
+        if (inner->type == XML_ELEMENT_NODE &&
+            kind_of((const char *)inner->name, 2) != FMU_OTHER)
+            return inner; /* of 2.0: SimpleType around it */
+    return found;
+}
+
+/* An enumeration goes from its least to its greatest item. */
+static void read_items(xmlNode *type, fmu_variable *variable)
+{
+    for (xmlNode *item = type->children; item; item = item->next) {
+        if (item->type != XML_ELEMENT_NODE || xmlStrcmp(item->name, BAD_CAST "Item"))
+            continue;
+        double value = gm_fmu_number(item, "value", (double)NAN);
+        variable->least = fmin(variable->least, value);
+        variable->greatest = fmax(variable->greatest, value);
+    }
+}
+
+static void read_range(xmlNode *type, xmlNode *declared, fmu_variable *variable)
+{
+    double least = declared ? gm_fmu_number(declared, "min", (double)NAN) : (double)NAN;
+    double most = declared ? gm_fmu_number(declared, "max", (double)NAN) : (double)NAN;
+    variable->least = gm_fmu_number(type, "min", least);
+    variable->greatest = gm_fmu_number(type, "max", most);
+    if (declared && isnan(variable->least) && isnan(variable->greatest))
+        read_items(declared, variable);
+}
+
+/* Unit, range and description of a variable. */
+static gm_status read_details(xmlNode *root, xmlNode *node, xmlNode *type,
+                              const char *archive, fmu_variable *variable,
+                              gm_error *error)
+{
+    gm_status status =
+        gm_fmu_optional(node, "description", archive, &variable->description, error);
+    variable->least = variable->greatest = (double)NAN;
+    if (!type || status != GM_OK)
+        return status;
+    xmlNode *declared = declared_type(root, type);
+    bool own = xmlHasProp(type, BAD_CAST "unit") || !declared;
+    read_range(type, declared, variable);
+    return gm_fmu_optional(own ? type : declared, "unit", archive, &variable->unit,
+                           error);
 }
 
 static gm_status read_variable(xmlNode *root, xmlNode *node, const char *archive,
@@ -125,9 +177,7 @@ static gm_status read_variable(xmlNode *root, xmlNode *node, const char *archive
     variable->causality = causality_of(node);
     variable->settable = variable->causality == FMU_PARAMETER ||
                          (type && xmlHasProp(type, BAD_CAST "start") != NULL);
-    gm_status status = type ? read_optional(unit_node(root, type), "unit", archive,
-                                            &variable->unit, error)
-                            : GM_OK;
+    gm_status status = read_details(root, node, type, archive, variable, error);
     bool good = variable->name && gm_fmu_read_reference(reference, &variable->reference);
     gm_free(reference);
     if (good)
@@ -161,21 +211,25 @@ static gm_status read_variables(xmlNode *root, xmlNode *list, const char *archiv
     return status;
 }
 
-static double number_of(xmlNode *node, const char *name, double otherwise)
+static void read_base(xmlNode *base, fmu_unit *unit)
 {
-    xmlChar *text = node ? xmlGetProp(node, BAD_CAST name) : NULL;
-    double value = otherwise;
-    if (text)
-        (void)gm_text_to_double((const char *)text, &value);
-    xmlFree(text);
-    return value;
+    unit->factor = gm_fmu_number(base, "factor", 1.0);
+    unit->offset = gm_fmu_number(base, "offset", 0.0);
+    unit->kg = (int)gm_fmu_number(base, "kg", 0.0);
+    unit->m = (int)gm_fmu_number(base, "m", 0.0);
+    unit->s = (int)gm_fmu_number(base, "s", 0.0);
+    unit->kelvin = (int)gm_fmu_number(base, "K", 0.0);
+    unit->rad = (int)gm_fmu_number(base, "rad", 0.0);
+    unit->others = xmlHasProp(base, BAD_CAST "A") || xmlHasProp(base, BAD_CAST "mol") ||
+                   xmlHasProp(base, BAD_CAST "cd");
 }
 
 static gm_status read_units(xmlNode *root, const char *archive, fmu_description *d,
                             gm_error *error)
 {
     xmlNode *list = gm_fmu_child(root, "UnitDefinitions");
-    d->step = number_of(gm_fmu_child(root, "DefaultExperiment"), "stepSize", (double)NAN);
+    d->step =
+        gm_fmu_number(gm_fmu_child(root, "DefaultExperiment"), "stepSize", (double)NAN);
     if (!list)
         return GM_OK;
     d->units = gm_calloc(xmlChildElementCount(list) + 1, sizeof *d->units);
@@ -186,11 +240,10 @@ static gm_status read_units(xmlNode *root, const char *archive, fmu_description 
         if (!base || !xmlHasProp(node, BAD_CAST "name"))
             continue;
         fmu_unit *unit = &d->units[d->n_units++];
-        gm_status status = read_optional(node, "name", archive, &unit->name, error);
+        gm_status status = gm_fmu_optional(node, "name", archive, &unit->name, error);
         if (status != GM_OK)
             return status;
-        unit->factor = number_of(base, "factor", 1.0);
-        unit->offset = number_of(base, "offset", 0.0);
+        read_base(base, unit);
     }
     return GM_OK;
 }
@@ -202,42 +255,6 @@ const fmu_unit *gm_fmu_description_unit(const fmu_description *description,
         if (strcmp(description->units[i].name, name) == 0)
             return &description->units[i];
     return NULL;
-}
-
-/* The annotation of the program that made the component; NULL when another did. */
-static xmlNode *find_origin(xmlNode *root)
-{
-    xmlNode *list = gm_fmu_child(root, "VendorAnnotations");
-    for (xmlNode *tool = list ? list->children : NULL; tool; tool = tool->next) {
-        xmlChar *name =
-            tool->type == XML_ELEMENT_NODE ? xmlGetProp(tool, BAD_CAST "name") : NULL;
-        bool ours = name && !xmlStrcmp(name, BAD_CAST "gearmap");
-        xmlFree(name);
-        if (ours)
-            return gm_fmu_child(tool, "Gearset");
-    }
-    return NULL;
-}
-
-static gm_status read_origin(xmlNode *root, const char *archive, fmu_description *d,
-                             gm_error *error)
-{
-    xmlNode *origin = find_origin(root);
-    char *temperature = NULL;
-    d->oil_temperature = (double)NAN;
-    if (!origin)
-        return GM_OK;
-    gm_status status =
-        read_optional(origin, "oilTemperature", archive, &temperature, error);
-    if (temperature)
-        (void)gm_text_to_double(temperature, &d->oil_temperature);
-    gm_free(temperature);
-    if (status == GM_OK)
-        status =
-            read_optional(origin, "descriptionSha256", archive, &d->source_sha256, error);
-    if (status == GM_OK)
-        status = read_optional(origin, "mapContentHash", archive, &d->map_hash, error);
-    return status;
 }
 
 bool gm_fmu_is_identifier(const char *text)
@@ -277,7 +294,7 @@ static gm_status read_root(xmlNode *root, const char *archive, fmu_description *
         return gm_fail(error, GM_ERR_FORMAT,
                        "%s: modelDescription.xml has no GUID or no model identifier",
                        archive);
-    gm_status status = read_origin(root, archive, d, error);
+    gm_status status = gm_fmu_origin_read(root, archive, d, error);
     if (status == GM_OK)
         status = read_units(root, archive, d, error);
     if (status == GM_OK)
@@ -334,6 +351,7 @@ void gm_fmu_description_clear(fmu_description *description)
     for (int i = 0; i < description->n_variables; i++) {
         gm_free(description->variables[i].name);
         gm_free(description->variables[i].unit);
+        gm_free(description->variables[i].description);
     }
     for (int i = 0; i < description->n_units; i++)
         gm_free(description->units[i].name);
@@ -344,6 +362,9 @@ void gm_fmu_description_clear(fmu_description *description)
         gm_free(description->states[i].dependencies);
     }
     gm_free(description->states);
+    for (int i = 0; i < description->n_gears; i++)
+        gm_free(description->gears[i].path);
+    gm_free(description->gears);
     gm_free(description->exchange_identifier);
     gm_free(description->guid);
     gm_free(description->identifier);

@@ -35,15 +35,27 @@ typedef struct fmu_variable {
     unsigned reference;
     fmu_kind kind;
     fmu_causality causality;
-    int settable; /* 1: parameter or start value that may be set before the start */
-    char *unit;   /* NULL: not stated */
+    int settable;      /* 1: parameter or start value that may be set before the start */
+    char *unit;        /* NULL: not stated */
+    char *description; /* NULL: none */
+    double least, greatest; /* its own range or its type's; NAN: not stated */
 } fmu_variable;
 
 /** A declared unit: SI value = factor * value + offset. */
 typedef struct fmu_unit {
     char *name;
     double factor, offset;
+    int kg, m, s, kelvin, rad; /* exponents of its base units */
+    int others;                /* 1: it has more of them */
 } fmu_unit;
+
+/** A gear that a component of this program says it has. */
+typedef struct fmu_gear {
+    char *path;
+    int number;
+    double ratio;   /* w_path / w_output */
+    double inertia; /* kg.m2, turns with the path's input flange */
+} fmu_gear;
 
 /** A continuous state of Model Exchange, in the order of the state vector. */
 typedef struct fmu_state {
@@ -64,7 +76,10 @@ typedef struct fmu_description {
     fmu_state *states;              /* [n_states] */
     char *source_sha256, *map_hash; /* NULL: not stated */
     double oil_temperature;         /* K, NAN: not stated */
-    double step;                    /* s, of the default experiment; NAN: not stated */
+    double speed_max, torque_max;   /* rad/s, N.m at the inputs; NAN: not stated */
+    int n_gears;
+    fmu_gear *gears; /* [n_gears] */
+    double step;     /* s, of the default experiment; NAN: not stated */
     int n_units;
     fmu_unit *units; /* [n_units] */
     int n_variables;

@@ -23,6 +23,14 @@ xmlNode *gm_fmu_child(const xmlNode *parent, const char *name);
 /** Copy of an attribute's value; NULL when it is missing or there is no memory. */
 char *gm_fmu_attribute(xmlNode *node, const char *name);
 
+/** The same, told apart: GM_OK with *value NULL when it is missing, GM_ERR_MEMORY. */
+GM_NODISCARD gm_status gm_fmu_optional(xmlNode *node, const char *name,
+                                       const char *archive, char **value,
+                                       gm_error *error);
+
+/** An attribute as a number; `otherwise` when it is missing, no number, or node NULL. */
+double gm_fmu_number(xmlNode *node, const char *name, double otherwise);
+
 /** A whole number that fits an unsigned. */
 bool gm_fmu_read_reference(const char *text, unsigned *reference);
 

@@ -1,74 +1,11 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * From names of a rig file to variables of an FMU, with their units.
+ * From names of a rig file to variables of an FMU.
  */
 #include "plant/foreign_parts.h"
 
 #include "base/alloc.h"
-
-#include <string.h>
-
-#define PI 3.14159265358979323846
-
-typedef struct known_unit {
-    const char *name;
-    double factor, offset;
-} known_unit;
-
-/* Spellings that modelDescriptions and people use; what the FMU declares itself comes
-   first. */
-static const known_unit known_units[] = {
-    {"rad/s", 1.0, 0.0},
-    {"rad.s-1", 1.0, 0.0},
-    {"rad/sec", 1.0, 0.0},
-    {"rpm", PI / 30.0, 0.0},
-    {"1/min", PI / 30.0, 0.0},
-    {"r/min", PI / 30.0, 0.0},
-    {"rev/min", PI / 30.0, 0.0},
-    {"rpm", PI / 30.0, 0.0},
-    {"deg/s", PI / 180.0, 0.0},
-    {"krpm", PI / 0.03, 0.0},
-    {"Hz", 2.0 * PI, 0.0},
-    {"rev/s", 2.0 * PI, 0.0},
-    {"N.m", 1.0, 0.0},
-    {"Nm", 1.0, 0.0},
-    {"N*m", 1.0, 0.0},
-    {"N m", 1.0, 0.0},
-    {"J/rad", 1.0, 0.0},
-    {"kN.m", 1e3, 0.0},
-    {"kNm", 1e3, 0.0},
-    {"N.mm", 1e-3, 0.0},
-    {"Nmm", 1e-3, 0.0},
-    {"mN.m", 1e-3, 0.0},
-    {"mNm", 1e-3, 0.0},
-    {"lbf.ft", 1.3558179483314004, 0.0},
-    {"K", 1.0, 0.0},
-    {"degC", 1.0, 273.15},
-    {"C", 1.0, 273.15},
-    {"degF", 5.0 / 9.0, 255.3722222222222},
-    {"rad", 1.0, 0.0},
-    {"deg", PI / 180.0, 0.0},
-    {"rev", 2.0 * PI, 0.0},
-    {"1", 1.0, 0.0},
-};
-
-static int find_unit(const fmu_description *d, const char *name, double *factor,
-                     double *offset)
-{
-    const fmu_unit *declared = gm_fmu_description_unit(d, name);
-    if (declared) {
-        *factor = declared->factor;
-        *offset = declared->offset;
-        return 1;
-    }
-    for (size_t i = 0; i < sizeof known_units / sizeof known_units[0]; i++)
-        if (strcmp(known_units[i].name, name) == 0) {
-            *factor = known_units[i].factor;
-            *offset = known_units[i].offset;
-            return 1;
-        }
-    return 0;
-}
+#include "plant/foreign_units.h"
 
 static gm_status map_signal(const gm_foreign *foreign, const gm_rig_signal *signal,
                             const char *what, foreign_variable *to, gm_error *error)
@@ -84,7 +21,7 @@ static gm_status map_signal(const gm_foreign *foreign, const gm_rig_signal *sign
                        foreign->file->model_path, to->is ? "number" : "variable",
                        signal->variable, what);
     const char *unit = signal->unit && signal->unit[0] ? signal->unit : to->is->unit;
-    if (!unit || !unit[0] || find_unit(d, unit, &to->factor, &to->offset))
+    if (!unit || !unit[0] || gm_foreign_unit(d, unit, &to->factor, &to->offset))
         return GM_OK;
     return gm_fail(
         error, GM_ERR_FORMAT,

@@ -76,6 +76,17 @@ static gm_status find_ratio(identifier *id, int p, int g)
                      &id->identity->ratio[p][g]);
 }
 
+/* A body gives in to torque; where torque counts the other way it seems to push back. */
+static gm_status check_inertia(const identifier *id, const char *flange, double inertia)
+{
+    if (inertia > 0.0)
+        return GM_OK;
+    return gm_fail(id->error, GM_ERR_MODEL,
+                   "the inertia at the %s seems to be %.3g kg.m2; does the model count "
+                   "its torque the other way (sign: minus)?",
+                   flange, inertia);
+}
+
 /* Flange f in neutral, the others at rest. */
 static gm_status find_free_inertia(identifier *id, int f)
 {
@@ -87,8 +98,11 @@ static gm_status find_free_inertia(identifier *id, int f)
             least = fmin(least, fabs(id->identity->ratio[p][g]));
     target.point.speed[f] = test_speed * id->run->scales.speed / (f == 0 ? least : 1.0);
     gm_rig_run_restart(id->run);
-    return gm_rig_ramp_inertia(id->run, &target, f, id->how->ramp_time,
-                               &id->identity->inertia[f], id->error);
+    gm_status status = gm_rig_ramp_inertia(id->run, &target, f, id->how->ramp_time,
+                                           &id->identity->inertia[f], id->error);
+    return status == GM_OK ? check_inertia(id, f == 0 ? "output" : info->path[f - 1].name,
+                                           id->identity->inertia[f].value)
+                           : status;
 }
 
 /* J_s at the output: the mean of driving and driven. */

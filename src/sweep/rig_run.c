@@ -6,6 +6,7 @@
 #include "sweep/rig_parts.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* The first automatic period in steps of the rig, and how often it may be doubled. */
@@ -233,6 +234,24 @@ static gm_status answer(gm_rig_run *r, int i, double pulse, double *change,
     return status;
 }
 
+static gm_status not_moved(const gm_rig_run *r, const gm_rig_hold *hold, double change,
+                           gm_error *error)
+{
+    int f = hold->flange;
+    char name[32] = "output";
+    if (f > 0)
+        (void)snprintf(name, sizeof name, "input path %d", f);
+    if (hold->kind == GM_HOLD_SPEED && change < -0.01 * hold->y_scale)
+        return gm_fail(error, GM_ERR_MODEL,
+                       "gears (%d, %d): a torque into the %s turns it backward; does the "
+                       "model count its torque the other way (sign: minus)?",
+                       r->command.gear[0], r->command.gear[1], name);
+    return gm_fail(error, GM_ERR_SOLVE,
+                   "gears (%d, %d): the %s does not move with any %s", r->command.gear[0],
+                   r->command.gear[1], name,
+                   hold->kind == GM_HOLD_TORQUE ? "speed" : "torque");
+}
+
 /* A pulse that moves what is held by a hundredth of its range, speeds forward: friction
    at rest holds smaller ones. */
 static gm_status find_pulse(gm_rig_run *r, int i, double *pulse, gm_error *error)
@@ -249,8 +268,7 @@ static gm_status find_pulse(gm_rig_run *r, int i, double *pulse, gm_error *error
             return GM_OK;
         }
     }
-    return gm_fail(error, GM_ERR_SOLVE, "flange %d does not move with any %s",
-                   hold->flange, hold->kind == GM_HOLD_TORQUE ? "speed" : "torque");
+    return not_moved(r, hold, change[i], error);
 }
 
 /* Column i of G: twice the pulse in motion against none, in the same direction. */

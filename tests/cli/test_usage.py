@@ -8,7 +8,7 @@ import subprocess
 import pytest
 from conftest import EXAMPLE, PROGRAM, ROOT, fails, gearmap, succeeds
 
-COMMANDS = ["check", "sweep", "bake", "reduce", "verify", "simulate"]
+COMMANDS = ["check", "sweep", "bake", "reduce", "verify", "simulate", "batch", "rig"]
 VERSION = (ROOT / "VERSION").read_text().strip()
 
 

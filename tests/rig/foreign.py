@@ -30,18 +30,21 @@ def binary(folder, variant, version, defines):
 
 
 def variables(variant, odd_units):
-    """(name, reference, causality, unit) of the reals; names as people choose them."""
+    """(name, reference, causality, unit, more) of the reals; names as people choose them.
+    The one with odd units says in words what it does otherwise, and how far it goes."""
     takes_speed = SPEED_IN.get(variant, [0, 0, 0])
     paths = len(GEARS.get(variant, ONE_PATH))
     names = ["output", "input"] if paths == 1 else ["output", "odd", "even"]
     units = {"tau": "kN.m" if odd_units else "N.m", "w": "rpm" if odd_units else "rad/s"}
+    words = {"tau": ' description="torque leaving the gearset"', "w": ""} if odd_units else {}
+    most = {"tau": ' max="0.2"', "w": ' max="5730"'} if odd_units else {}
     found = []
     for flange, name in enumerate(names):
         speed = flange < len(takes_speed) and takes_speed[flange]
-        what = ("w", "tau") if speed else ("tau", "w")
-        found.append((f"{name}.{what[0]}", flange, "input", units[what[0]]))
-        found.append((f"{name}.{what[1]}", 10 + flange, "output", units[what[1]]))
-    found.append(("oil_temperature", 30, "input", "degC" if odd_units else "K"))
+        for what, causality in zip(("w", "tau") if speed else ("tau", "w"), ("input", "output")):
+            found.append((f"{name}.{what}", flange + 10 * (causality == "output"), causality,
+                          units[what], words.get(what, ""), most.get(what, "") if flange else ""))
+    found.append(("oil_temperature", 30, "input", "degC" if odd_units else "K", "", ""))
     return found, names
 
 
@@ -50,10 +53,11 @@ def description(variant, version, modes, odd_units, token):
     states = 8
     lines = []
     if version == 2:
-        for name, reference, causality, unit in reals:
+        for name, reference, causality, unit, words, most in reals:
             start = ' start="0"' if causality == "input" else ""
-            lines.append(f'<ScalarVariable name="{name}" valueReference="{reference}" '
-                         f'causality="{causality}"><Real unit="{unit}"{start}/></ScalarVariable>')
+            lines.append(f'<ScalarVariable name="{name}" valueReference="{reference}"{words} '
+                         f'causality="{causality}"><Real unit="{unit}"{most}{start}/>'
+                         "</ScalarVariable>")
         for path, name in enumerate(names[1:]):
             lines.append(f'<ScalarVariable name="{name}.gear" valueReference="{20 + path}" '
                          'causality="input" variability="discrete"><Integer start="0"/>'
@@ -68,13 +72,14 @@ def description(variant, version, modes, odd_units, token):
         structure = "<Derivatives>" + "".join(
             f'<Unknown index="{first + states + i}"/>' for i in range(states)) + "</Derivatives>"
     else:
-        for name, reference, causality, unit in reals:
+        for name, reference, causality, unit, words, most in reals:
             start = ' start="0"' if causality == "input" else ""
-            lines.append(f'<Float64 name="{name}" valueReference="{reference}" '
-                         f'causality="{causality}" unit="{unit}"{start}/>')
-        for path, name in enumerate(names[1:]):
-            lines.append(f'<Int32 name="{name}.gear" valueReference="{20 + path}" '
-                         'causality="input" variability="discrete" start="0"/>')
+            lines.append(f'<Float64 name="{name}" valueReference="{reference}"{words} '
+                         f'causality="{causality}" unit="{unit}"{most}{start}/>')
+        for path, gears in enumerate(GEARS.get(variant, ONE_PATH)):
+            lines.append(f'<Int32 name="{names[1 + path]}.gear" valueReference="{20 + path}" '
+                         'causality="input" variability="discrete" start="0" '
+                         f'min="{min(0, *gears)}" max="{max(gears)}"/>')
         for i in range(states):
             lines.append(f'<Float64 name="x{i}" valueReference="{40 + i}"/>')
         for i in range(states):

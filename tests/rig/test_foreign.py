@@ -263,4 +263,4 @@ def test_other_commands_say_that_they_need_a_description(tmp_path):
     rig = foreign.make_rig(tmp_path)
     done = gearmap("check", rig)
     assert done.returncode == 1 and "is a rig file" in done.stderr
-    assert "`creep_rad_s`" in gearmap("help", "rig").stdout
+    assert "`creep_rad_s`" in gearmap("help", "rig-file").stdout
