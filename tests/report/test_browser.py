@@ -178,8 +178,30 @@ def test_html_with_a_drive_is_valid(proved):
     check_html(proved)
 
 
+SHEET = 688  # px: A4 without the margins of the page's style
+ON_PAPER = """(() => { dispatchEvent(new Event('%s'));
+  return [...document.querySelectorAll('.plot, svg.section, svg.end-view')].map((e) => {
+    const drawn = e.querySelector('.main-svg') || e;
+    const b = drawn.getBoundingClientRect();
+    return [e.id || e.classList[0], Math.round(b.right), Math.round(b.height)]; }); })()"""
+
+
 def test_print_is_light_and_whole(browser, proved):
+    """Figures are drawn anew as wide as the paper, and come back as they were."""
     browser.open(proved, dark=True)
+    before = browser.run(ON_PAPER % "nothing")
+    browser.call("Emulation.setDeviceMetricsOverride", width=SHEET, height=1000,
+                 deviceScaleFactor=1, mobile=False)
+    browser.call("Emulation.setEmulatedMedia", media="print")
+    for name, right, height in browser.run(ON_PAPER % "beforeprint"):
+        assert 0 < right <= SHEET and height < 1000, name
+    assert browser.run("getComputedStyle(document.body).backgroundColor") == "rgb(255, 255, 255)"
+    assert browser.run("getComputedStyle(document.querySelector('h2')).color") == "rgb(27, 32, 39)"
+    browser.call("Emulation.setEmulatedMedia", media="", features=[
+        {"name": "prefers-color-scheme", "value": "dark"}])
+    browser.call("Emulation.setDeviceMetricsOverride", width=WIDE, height=900,
+                 deviceScaleFactor=1, mobile=False)
+    assert browser.run(ON_PAPER % "afterprint") == before
     answer = browser.call("Page.printToPDF", printBackground=True)
     assert len(answer["data"]) > 50000
     assert browser.errors() == []

@@ -24,6 +24,7 @@ from gearmap_report import command  # noqa: E402
 from gearmap_report.errors import ReportError  # noqa: E402
 from gearmap_report.map_file import read_map  # noqa: E402
 from gearmap_report.results import read_results  # noqa: E402
+from gearmap_report.words import number, percent  # noqa: E402
 
 COARSE = ["--speed-step", "1500rpm", "--torque-step", "100Nm"]
 LARGEST = 8e6  # bytes
@@ -182,6 +183,114 @@ def test_a_map_without_its_description(reduced, folder):
     text, structure = report(bare, *reduced[1:], output=folder / "bare.html")
     assert "does not hold the description" in text
     assert "components" not in {p["id"] for p in structure.plots}
+
+
+def changed(reduced, tmp_path, change):
+    """The results of verify with something else in them."""
+    found = json.loads(reduced[1].read_text())
+    change(found)
+    path = tmp_path / "changed.json"
+    path.write_text(json.dumps(found))
+    return path
+
+
+def drop_errors(found):
+    del found["reduced"][1]["errors"]["loss_energy_relative"]
+
+
+@pytest.mark.parametrize("change, words", [
+    (lambda found: found["measured"].update(map_hash="0" * 64), "from another map"),
+    (lambda found: found.pop("cases"), "not a whole result"),
+    (lambda found: found.update(points="many"), "not a whole result"),
+    (lambda found: found["groups"].update(drag={}), "not a whole result"),
+    (lambda found: found.update(reduced=[1]), "not a whole result"),
+    (drop_errors, "not a whole result"),
+])
+def test_results_of_another_map_or_not_whole_are_refused(reduced, tmp_path, change, words):
+    path = changed(reduced, tmp_path, change)
+    with pytest.raises(ReportError, match=words):
+        read_results([str(path)], read_map(reduced[0]))
+
+
+@pytest.mark.parametrize("change, words", [
+    (lambda t: t.replace(".input.", ".odd."), "not a trace of this gearset"),
+    (lambda t: t[:t.rindex(",") - 40], "cut off"),
+    (lambda t: t[:t.rindex("\n")][:-3] + "xyz\n", "cut off"),
+    (lambda t: t[:t.index("\n") + 1], "cut off"),
+])
+def test_a_trace_of_another_gearset_or_cut_off_is_refused(reduced, tmp_path, change, words):
+    path = tmp_path / "trace.csv"
+    path.write_text(change(reduced[2].read_text()))
+    with pytest.raises(ReportError, match=words):
+        read_results([str(path)], read_map(reduced[0]))
+
+
+def test_results_of_one_fidelity(reduced, folder):
+    """verify --fidelity writes what belongs to it beside it, not in a list."""
+    made, results, trace = reduced
+    found = json.loads(results.read_text())
+    lash = found["reduced"].pop()
+    beside = {k: lash.pop(k) for k in ("cpu_saved", "errors", "differences", "loss_by_gear",
+                                       "shifts", "worst", "energy_balance_relative")}
+    path = folder / "lash.json"
+    path.write_text(json.dumps({**found, "reduced": lash, **beside}))
+    text, structure = report(made, path, trace, output=folder / "lash.html")
+    assert "<h3>lash</h3>" in text and "<h3>rigid</h3>" not in text
+    assert "gear-energy-0" in {p["id"] for p in structure.plots}
+
+
+def figure(text, name):
+    return json.loads(re.search(r'id="%s-data">(.*?)</script>' % name, text).group(1))
+
+
+def names_of(plot):
+    return {trace.get("name") for trace in plot["data"]}
+
+
+def test_where_the_map_was_left(reduced, folder):
+    """The drive, shown with a map of a smaller range."""
+    small = folder / "small.map"
+    gearmap("sweep", ROOT / "examples" / "ev1.yaml", "-o", small, *COARSE[:2],
+            "--torque-step", "5Nm", "--torque-max", "5Nm")
+    left, _ = report(small, reduced[2], output=folder / "left.html")
+    assert "left the map" in left and "input, outside" in names_of(figure(left, "range"))
+    inside, _ = report(reduced[0], reduced[2], output=folder / "inside.html")
+    assert "never left the map" in inside
+    assert "input, outside" not in names_of(figure(inside, "range"))
+
+
+def test_the_worst_points_stand_in_for_points_that_a_result_does_not_hold(reduced, folder):
+    bare = folder / "no_points.map"
+    bare.write_bytes(reduced[0].read_bytes())
+    with sqlite3.connect(bare) as map_file:
+        for table in ("verification", "verification_point", "result"):
+            map_file.execute("DROP TABLE " + table)
+    map_file.close()
+    text, _ = report(bare, reduced[1], output=folder / "worst.html")
+    stars = [t for t in figure(text, "loss-map")["data"]
+             if t.get("marker", {}).get("symbol") == "star"]
+    worst = [c["worst"]["speed_rpm"] for c in json.loads(reduced[1].read_text())["cases"]
+             if c["direction"] == "forward"]
+    assert [x for t in stars for x in t["x"]] == pytest.approx(worst, rel=1e-4)
+
+
+def test_the_sources_in_the_description_are_told(swept, folder):
+    text, _ = report(swept, output=folder / (swept.stem + "_sources.html"))
+    head = (ROOT / "examples" / (swept.stem + ".yaml")).read_text().splitlines()[0]
+    assert '<pre class="said" tabindex="0">%s' % head.lstrip("# ")[:40] in text
+
+
+@pytest.mark.parametrize("value, digits, words", [
+    (0.01234, 2, "0.012"), (2000, 4, "2000"), (16310, 6, "16\u202f310"), (1.0, 2, "1"),
+    (9.999, 3, "10"), (-4.5, 3, "−4.50"), (0, 3, "0"), (float("nan"), 3, "–"),
+])
+def test_numbers_as_people_read_them(value, digits, words):
+    assert number(value, digits) == words
+
+
+def test_percentages_keep_their_digits():
+    assert percent(0.98, 4) == "98.00\u202f%" and percent(-0.01, 2) == "−1.0\u202f%"
+    assert percent(0) == "0\u202f%"
 
 
 def refused(words, *arguments, **environment):

@@ -48,13 +48,13 @@ def numbers(data, results):
 
 
 def kinds_table(found):
-    rows = [[words, what, number(found[kind][0], 6), percent(found[kind][2], 2),
-             percent(found[kind][1], 2)]
+    rows = [[words, what, percent(found[kind][2], 2), percent(found[kind][1], 2)]
             for kind, (words, what) in KINDS.items() if kind in found]
-    return table(["When", "Compared", "Points", "Typical difference",
-                  "Largest difference"], rows,
-                 "Differences are shares of the largest value of the same gear and "
-                 "direction. Typical: root mean square.", 2)
+    counts = sorted({points for points, _, _ in found.values()})
+    many = " to ".join(number(n, 6) for n in (counts[0], counts[-1])[:len(counts)])
+    return table(["When", "Compared", "Typical difference", "Largest difference"], rows,
+                 "Each line: %s random points. Differences are shares of the largest value "
+                 "of the same gear and direction. Typical: root mean square." % many, 2)
 
 
 def points_figure(data):

@@ -4,6 +4,8 @@
 The detailed model is solved at each point (`gearmap check --points`). Over a drive the
 points are those of the detailed drive, ten for each second, as if each were steady.
 """
+from html import escape
+
 import numpy as np
 import pandas as pd
 import plotly.graph_objects as go
@@ -11,7 +13,7 @@ import plotly.graph_objects as go
 from .colours import COMPONENTS
 from .drive import ENGAGED
 from .figure import canvas, choice, embed
-from .words import gear_name, number, ordinal, paragraph, percent, unit
+from .words import easy, ordinal, paragraph, percent, unit
 
 SPEEDS = (0.15, 0.35, 0.7)  # of the largest
 TORQUES = (("0.1", 0.1), ("0.4", 0.4), ("1", 1.0), ("-0.2", -0.2))
@@ -23,12 +25,12 @@ def column(kind):
     return kind.replace(" ", "_") + "_W"
 
 
-def bars(rows, names, divide, meta, visible):
+def bars(rows, names, meta, visible):
     """Stacked bars: rows[kind] for each of names. Components without loss are left out."""
     found = []
     for kind, (colour, pattern) in COMPONENTS.items():
-        values = rows[column(kind)].to_numpy(float) / divide
-        if values.max() <= 0.001 * rows["loss_W"].max() / divide:
+        values = rows[column(kind)].to_numpy(float)
+        if values.max() <= 0.001 * rows["loss_W"].max():
             continue
         found.append(go.Bar(
             y=names, x=values, name=kind, orientation="h", meta=meta, visible=visible,
@@ -40,10 +42,25 @@ def bars(rows, names, divide, meta, visible):
     return found
 
 
+def end_words(ends, names, words, meta=None, visible=True):
+    """Beside the end of each bar."""
+    return go.Scatter(
+        x=ends, y=names, mode="text", meta=meta, visible=visible, showlegend=False,
+        textposition="middle right", hoverinfo="skip", cliponaxis=False,
+        text=[" " + w for w in words])
+
+
+def bar_canvas(count, room, title):
+    """For stacked bars with words beside their ends."""
+    plot = canvas(150 + room * count, title, None, barmode="stack")
+    plot.update_layout(margin=dict(l=64, r=96, t=70, b=52))
+    return plot
+
+
 def points_table(data):
     rows = []
     for share in SPEEDS:
-        speed = round(share * data.about["speed_max_rpm"], -2)
+        speed = easy(share * data.about["speed_max_rpm"])
         for key, torque in TORQUES:
             rows += [(n, speed, round(torque * data.about["torque_max_Nm"], 1), key)
                      for _, n in data.all_gears()]
@@ -53,29 +70,27 @@ def points_table(data):
 def points_figure(data, gearset):
     table = points_table(data)
     table = pd.concat([gearset.losses(table.drop(columns="key")), table["key"]], axis=1)
-    plot = canvas(150 + 34 * len(data.gears), "lost power [W]", None, barmode="stack")
+    plot = bar_canvas(len(data.gears), 34, "lost power [W]")
     speeds = sorted(table["speed_rpm"].unique())
     for speed in speeds:
         for key, _ in TORQUES:
             rows = table[(table["speed_rpm"] == speed) & (table["key"] == key)][::-1]
             names = [ordinal(n) for n in rows["gear"]]
             meta = {"speed": "%g" % speed, "torque": key}
-            plot.add_traces(bars(rows, names, 1.0, meta, False))
-            plot.add_trace(go.Scatter(
-                x=rows["loss_W"], y=names, mode="text", meta=meta, visible=False,
-                textposition="middle right", showlegend=False, hoverinfo="skip",
-                cliponaxis=False,
-                text=[" %.0f W" % w if pd.isna(e) else " %.0f W, %.1f %%" % (w, 100 * e)
-                      for w, e in zip(rows["loss_W"], rows["efficiency"])]))
-    plot.update_layout(margin=dict(l=64, r=96, t=70, b=52), legend_traceorder="normal")
+            plot.add_traces(bars(rows, names, meta, False))
+            plot.add_trace(end_words(rows["loss_W"], names, [
+                "%.0f W" % w if pd.isna(e) else "%.0f W, %.1f %%" % (w, 100 * e)
+                for w, e in zip(rows["loss_W"], rows["efficiency"])], meta, False))
     torque = {k: unit(t * data.about["torque_max_Nm"], "N·m") for k, t in TORQUES}
     choices = choice("components", "speed", "Speed of the input",
                      [("%g" % s, unit(s, "rpm", 4)) for s in speeds],
                      "%g" % speeds[1]) + choice(
         "components", "torque", "Torque", [(k, torque[k]) for k, _ in TORQUES], "0.4")
+    other = (" The other input shaft is in neutral and turns freely."
+             if len(data.paths) > 1 else "")
     return embed("components", plot,
-                 "At the end of each bar: all the power lost, and the efficiency. Other "
-                 "input shaft in neutral, turning freely. From the detailed model.",
+                 "At the end of each bar: all the power lost, and the efficiency." + other
+                 + " Computed with the detailed model.",
                  "Power lost in each gear by component: meshes, bearings, seals, oil and "
                  "others, at a chosen speed and torque of the input.", choices)
 
@@ -113,29 +128,31 @@ def operating_points(drive):
     return table[engaged[at]].reset_index(drop=True)
 
 
-def drive_figure(drive, gearset):
+def drive_section(drive, gearset):
     table = operating_points(drive)
     if not len(table):
         return ""
     losses = gearset.losses(table)
     energy = losses.groupby("gear").sum(numeric_only=True) * STEP / 1e3
-    energy = energy.sort_index(ascending=False)
+    energy = energy.loc[sorted(energy.index, key=lambda n: (n < 0, abs(n)), reverse=True)]
     names = [ordinal(int(n)) for n in energy.index]
-    plot = canvas(150 + 44 * len(energy), "lost energy [kJ]", None, barmode="stack")
-    plot.add_traces(bars(energy, names, 1.0, None, True))
-    plot.update_layout(margin=dict(l=64, r=24, t=70, b=52), legend_traceorder="normal")
     total = float(energy["loss_W"].sum())
+    plot = bar_canvas(len(energy), 38, "lost energy [kJ]")
+    plot.add_traces(bars(energy, names, None, True))
+    plot.add_trace(end_words(energy["loss_W"], names, [
+        "%s, %s" % (unit(e, "kJ"), percent(e / total, 2)) for e in energy["loss_W"]]))
     measured = float(drive.lost("detailed")[-1]) / 1e3
     shares = {k: float(energy[column(k)].sum()) / total for k in COMPONENTS}
     first, second = sorted(shares, key=shares.get, reverse=True)[:2]
     words = paragraph("Most of it goes into %s (%s) and %s (%s)." % (
         first, percent(shares[first], 2), second, percent(shares[second], 2)))
-    return ("<h3>Which parts lose the energy of a drive?</h3>" + words
-            + embed("drive-components", plot,
-                    "Drive: %s. The detailed model at the speeds and torques of the drive, "
-                    "taken as steady: %s; the drive itself lost %s." % (
-                        drive.name, unit(total, "kJ"), unit(measured, "kJ")),
-                    "Energy lost over the drive by gear and component."))
+    return ('<section id="drive-parts"><h2>Which parts lose the energy of a drive?</h2>'
+            + words + embed(
+                "drive-components", plot,
+                "Drive: %s. Computed with the detailed model at the speeds and torques of "
+                "the drive, as if each moment were steady: %s in all. The drive itself "
+                "lost %s." % (escape(drive.name), unit(total, "kJ"), unit(measured, "kJ")),
+                "Energy lost over the drive by gear and component.") + "</section>")
 
 
 def chapter(data, gearset, drive):
@@ -143,5 +160,4 @@ def chapter(data, gearset, drive):
         return ""
     return ('<section id="parts"><h2>Which parts lose the power?</h2>'
             + points_figure(data, gearset) + "</section>"
-            + ('<section id="drive-parts">%s</section>'
-               % drive_figure(drive, gearset).replace("h3>", "h2>") if drive else ""))
+            + (drive_section(drive, gearset) if drive else ""))

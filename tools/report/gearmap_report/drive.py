@@ -4,6 +4,7 @@ the trace of `gearmap verify --cycle`, by name."""
 import numpy as np
 
 from .low_pass import low_pass
+from .words import cycle_name, unit
 
 ENGAGED = 2  # state of a path
 RUNS = ("detailed", "lash", "rigid")  # in the order in which they are drawn
@@ -20,7 +21,7 @@ class Drive:
         self.runs = [r for r in RUNS if r + ".engine_speed_rpm" in trace]
         self.paths = [c.split(".")[1] for c in trace
                       if c.startswith("detailed.") and c.endswith(".gear")]
-        self.name = cycle["cycle"] if cycle else "%.0f s" % self.time[-1]
+        self.name = cycle_name(cycle["cycle"]) if cycle else unit(self.time[-1], "s", 4)
         self.filtered = self.filter_torques()
 
     @property

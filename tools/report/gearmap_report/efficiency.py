@@ -6,6 +6,8 @@
 """
 import numpy as np
 
+from .words import RPM
+
 
 class GearLosses:
     """Tables of one gear, rotation forward. speed [rpm], torque [N.m]; load[speed][torque]
@@ -22,13 +24,12 @@ class GearLosses:
         self.speed = grid.index.to_numpy(float)
         self.torque = grid.columns.to_numpy(float)
         self.load = grid.to_numpy(float)
-        self.no_load_speed, table = self.parasitic(data)
-        self.no_load_nodes = table
-        self.no_load = np.interp(self.speed, self.no_load_speed, table)
+        self.no_load = np.interp(self.speed, *self.parasitic(data))
 
-    def parasitic(self, data):
-        """P of the configuration, turned to the input: nodes of speed and torque."""
-        first, second = data.configuration_of(self.path, self.number)
+    def parasitic(self, data, other=0):
+        """P with the other path in a gear or in neutral, turned to the input: nodes of
+        speed and torque, none if the map has no such configuration."""
+        first, second = data.configuration_of(self.path, self.number, other)
         rows = data.parasitic
         chosen = rows[rows["gear_0"] == first]
         if second is not None:
@@ -56,7 +57,7 @@ class GearLosses:
 
     @property
     def power(self):
-        return self.lost * self.speed[:, None] / 9.549296585513721
+        return self.lost * self.speed[:, None] / RPM
 
     def lost_at(self, speed, torque):
         """Between the nodes, linearly in both directions. torque: array."""

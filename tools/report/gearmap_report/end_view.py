@@ -6,6 +6,7 @@ from . import svg
 from .section import Section, spoken
 
 MARGIN = 10.0
+WIDE, HIGH = 335.0, 450.0  # pixels that a screen has for it
 
 
 def places(gear, shaft):
@@ -68,5 +69,4 @@ def draw_end_view(gearset, label):
     content += "".join(draw_shaft(section, s) for s in section.parts["shafts"]
                        if s["name"] not in hidden)
     box = (y0 - MARGIN, -z1 - MARGIN, y1 - y0 + 2 * MARGIN, z1 - z0 + 2 * MARGIN)
-    return svg.tag("svg", content, viewBox=" ".join(svg.number(v) for v in box),
-                   role="img", aria_label=label, class_="end-view")
+    return svg.frame(content, box, max(box[2] / WIDE, box[3] / HIGH), label, "end-view")

@@ -16,22 +16,25 @@ def canvas(height, x=None, y=None, **layout):
         template="none", height=height, margin=dict(l=64, r=16, t=40, b=52),
         font=dict(family="inherit", size=13), hovermode="closest",
         paper_bgcolor="rgba(0,0,0,0)", plot_bgcolor="rgba(0,0,0,0)", dragmode="zoom",
-        legend=dict(orientation="h", x=0, xanchor="left", y=1.02, yanchor="bottom"),
+        legend=dict(orientation="h", x=0, xanchor="left", y=1.02, yanchor="bottom",
+                    traceorder="normal"),
         **layout)
-    figure.update_xaxes(title=x, zeroline=False, automargin=True, title_standoff=8)
-    figure.update_yaxes(title=y, zeroline=False, automargin=True, title_standoff=8)
+    axis = dict(zeroline=False, automargin=True, title_standoff=8, exponentformat="none")
+    figure.update_xaxes(title=x, **axis)
+    figure.update_yaxes(title=y, **axis)
     return figure
 
 
 def choice(figure_id, key, words, options, chosen):
-    """Radio buttons: options are (value, label)."""
+    """Radio buttons: options are (value, label). A single one is not shown."""
     buttons = "".join(
         '<label><input type="radio" name="%s-%s" value="%s"%s> %s</label>'
         % (figure_id, key, escape(str(value), quote=True),
            " checked" if value == chosen else "", escape(label))
         for value, label in options)
-    return ('<fieldset class="choice" data-figure="%s" data-key="%s"><legend>%s</legend>'
-            "%s</fieldset>" % (figure_id, key, escape(words), buttons))
+    return ('<fieldset class="choice" data-figure="%s" data-key="%s"%s><legend>%s</legend>'
+            "%s</fieldset>" % (figure_id, key, " hidden" * (len(options) < 2),
+                               escape(words), buttons))
 
 
 def rounded(value):
@@ -52,7 +55,7 @@ def embed(figure_id, plot, caption, alternative, choices="", kind="plot"):
     data = rounded(plot.to_dict())
     text = json.dumps(data, separators=(",", ":"), ensure_ascii=False)
     return (
-        '<figure id="%s-figure">%s<div class="plot" id="%s" data-kind="%s" role="img" '
+        '<figure id="%s-figure">%s<div class="plot" id="%s" data-kind="%s" role="group" '
         'aria-label="%s" style="height:%dpx"></div><figcaption>%s</figcaption>'
         '<script type="application/json" id="%s-data">%s</script></figure>'
         % (figure_id, choices, figure_id, kind, escape(alternative, quote=True),

@@ -1,29 +1,30 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """Chapter 4: where the component may be used, and what it does not show."""
+from html import escape
 from math import pi, sqrt
 
 import numpy as np
 import plotly.graph_objects as go
 
-from .colours import RISING
+from .colours import HELD_OUT, RISING
 from .figure import canvas, embed
 from .words import number, paragraph, percent, table, unit
 
 POINTS = 4000  # of a drive that are drawn
 
 
-def left_map(drive, data):
-    """Share of the detailed drive's time with a path beyond the largest speed or torque."""
-    outside = np.zeros(drive.n, bool)
+def moments(drive, data):
+    """Of the detailed drive: {path: (speed, torque, outside the map?)}."""
+    found = {}
     for path in drive.paths:
-        outside |= np.abs(drive.run("detailed", path + ".speed_rpm")) > data.about[
-            "speed_max_rpm"]
-        outside |= np.abs(drive.run("detailed", path + ".tau_Nm")) > data.about[
-            "torque_max_Nm"]
-    return float(outside.mean())
+        speed = drive.run("detailed", path + ".speed_rpm")
+        torque = drive.run("detailed", path + ".tau_Nm")
+        found[path] = (speed, torque, (np.abs(speed) > data.about["speed_max_rpm"])
+                       | (np.abs(torque) > data.about["torque_max_Nm"]))
+    return found
 
 
-def range_figure(drive, data):
+def range_figure(drive, data, places):
     plot = canvas(420, "speed of the input [rpm]", "torque at the input [N·m]")
     speed, torque = data.about["speed_max_rpm"], data.about["torque_max_Nm"]
     plot.add_shape(type="rect", x0=0, x1=speed, y0=-torque, y1=torque, layer="below",
@@ -31,29 +32,51 @@ def range_figure(drive, data):
     plot.add_annotation(x=speed, y=torque, text="range of the map", showarrow=False,
                         xanchor="right", yanchor="top", font=dict(color="#12947d"))
     every = max(1, drive.n // POINTS)
-    for path, colour, mark in zip(drive.paths, (RISING[1], RISING[4]),
-                                  ("circle", "diamond-open")):
-        plot.add_trace(go.Scatter(
-            x=drive.run("detailed", path + ".speed_rpm")[::every],
-            y=drive.run("detailed", path + ".tau_Nm")[::every], mode="markers",
-            name=path if path == "input" else "input " + path,
-            marker=dict(size=4, color=colour, opacity=0.45, symbol=mark),
-            hovertemplate="%{x:.0f} rpm, %{y:.1f} N·m<extra>" + path + "</extra>"))
-    plot.update_xaxes(range=[-0.03 * speed, 1.05 * speed])
-    plot.update_yaxes(range=[-1.1 * torque, 1.1 * torque])
-    return embed("range", plot, "Each point is one moment of the drive.",
+    for (path, (x, y, out)), colour, mark in zip(places.items(), (RISING[1], RISING[4]),
+                                                 ("circle", "diamond-open")):
+        name = path if path == "input" else "input " + path
+        plot.add_trace(marks(x[~out][::every], y[~out][::every], name, size=4, color=colour,
+                             opacity=0.45, symbol=mark))
+        if out.any():
+            few = max(1, int(out.sum()) // POINTS)
+            plot.add_trace(marks(x[out][::few], y[out][::few], name + ", outside", size=7,
+                                 color=HELD_OUT, symbol="x"))
+    x = np.concatenate([x for x, _, _ in places.values()])
+    y = np.concatenate([y for _, y, _ in places.values()])
+    high, far = max(speed, x.max()), max(torque, np.abs(y).max())
+    plot.update_xaxes(range=[min(-0.03 * high, 1.05 * x.min()), 1.05 * high])
+    plot.update_yaxes(range=[-1.1 * far, 1.1 * far])
+    return embed("range", plot, "Each point is one moment of the drive; a red cross is one "
+                 "outside the map." if any(o.any() for _, _, o in places.values()) else
+                 "Each point is one moment of the drive.",
                  "Operating points of the drive and the range of the map over speed and "
                  "torque of the input.")
+
+
+def marks(x, y, name, **looks):
+    return go.Scatter(x=x, y=y, mode="markers", name=name, marker=looks,
+                      hovertemplate="%{x:.0f} rpm, %{y:.1f} N·m<extra>" + name + "</extra>")
 
 
 def left_words(drive, data):
     if drive is None:
         return ""
-    share = left_map(drive, data)
-    words = ("The drive never left the map." if share == 0.0 else
-             "The drive was outside the map for %s of its time; there the value at the "
-             "edge was used." % percent(share, 2))
-    return ("<h3>Was the map left?</h3>" + paragraph(words) + range_figure(drive, data))
+    places = moments(drive, data)
+    share = float(np.any([out for _, _, out in places.values()], axis=0).mean())
+    words = ("The drive (%s) never left the map: the input turned at up to %s and carried "
+             "up to %s." if share == 0.0 else
+             "The drive (%s) left the map: the input turned at up to %s and carried up to "
+             "%s.") % (escape(drive.name), unit(largest(places, 0), "rpm"),
+                       unit(largest(places, 1), "N·m"))
+    if share:
+        words += (" It was outside for %s of the time. There the component used the values "
+                  "at the edge." % percent(share, 2))
+    return ("<h3>Was the map left?</h3>" + paragraph(words)
+            + range_figure(drive, data, places))
+
+
+def largest(places, which):
+    return max(float(np.abs(found[which]).max()) for found in places.values())
 
 
 def frequencies(data):

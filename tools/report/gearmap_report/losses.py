@@ -8,7 +8,7 @@ from .colours import COMPARED, MUCH_KEPT, MUCH_LOST, NODE, TWO_SIDED, of_gears
 from .efficiency import all_gears
 from .figure import canvas, choice, embed
 from .spread import spread
-from .words import gear_name, number, paragraph, percent, unit
+from .words import easy, gear_name, paragraph, percent, unit
 
 QUANTITIES = (("lost", "lost torque", "N·m"), ("efficiency", "efficiency", "%"),
               ("power", "lost power", "W"))
@@ -75,6 +75,30 @@ def compared(data, gear):
                   & (points[column] == gear.number) & (points["speed_rpm"] > 0)]
 
 
+def worst_points(results, gear):
+    """Where the differences of a result without its points are largest."""
+    cases = (results.steady or {}).get("cases", [])
+    return pd.DataFrame([
+        {"speed_rpm": case["worst"]["speed_rpm"], "torque_Nm": case["worst"]["torque_Nm"],
+         "error": 100 * case["max_relative"]} for case in cases
+        if case.get("path") == gear.path and case.get("gear") == gear.number
+        and case.get("direction") == "forward" and case.get("worst")])
+
+
+def held_out_worst(results, gear):
+    """The only point of the gear that is known."""
+    points = worst_points(results, gear)
+    if not len(points):
+        return None
+    return go.Scatter(
+        x=points["speed_rpm"].tolist(), y=points["torque_Nm"].tolist(), mode="markers",
+        customdata=points[["error"]], name="largest difference of all compared points",
+        marker=dict(size=12, color=COMPARED, symbol="star", line=dict(width=1, color="white")),
+        hovertemplate="%{x:.0f} rpm, %{y:.1f} N·m<br>largest difference %{customdata[0]:.3f} "
+                      "% of the gear's largest loss<extra></extra>",
+        meta={"gear": str(gear.number)}, visible=False)
+
+
 def held_out(data, gear):
     points = compared(data, gear)
     if not len(points):
@@ -92,7 +116,7 @@ def held_out(data, gear):
         meta={"gear": str(gear.number)}, visible=False)
 
 
-def map_figure(data, gears):
+def map_figure(data, results, gears):
     plot = canvas(500, SPEED, TORQUE)
     speed, torque = data.about["speed_max_rpm"], data.about["torque_max_Nm"]
     plot.update_xaxes(range=[-0.01 * speed, 1.01 * speed])
@@ -101,14 +125,16 @@ def map_figure(data, gears):
         for quantity in QUANTITIES:
             plot.add_trace(surface(gear, *quantity))
         plot.add_trace(nodes(gear))
-        points = held_out(data, gear)
+        points = held_out(data, gear) or held_out_worst(results, gear)
         if points is not None:
             plot.add_trace(points)
     choices = gear_choice("loss-map", gears) + choice(
         "loss-map", "quantity", "Show", [(q, w) for q, w, _ in QUANTITIES], "lost")
     on_top = (" Dark points were not used for the tables: there the component was compared "
               "with the detailed model; a larger point has a larger error."
-              if len(data.points) else "")
+              if len(data.points) else
+              " The star is where the component differs most from the detailed model."
+              if results.steady else "")
     return embed(
         "loss-map", plot,
         "Positive torque drives the car; negative torque: the car drives the engine. Small "
@@ -120,19 +146,17 @@ def map_figure(data, gears):
 
 # ---- all gears side by side ----
 
-def end_labels(gears, x, heights, least, meta, visible=True):
+def end_labels(gears, colours, x, heights, least, meta):
     """The number of each gear beside the end of its line."""
-    colours = of_gears([g.number for g in gears])
     return go.Scatter(
         x=[x] * len(gears), y=spread(heights, least), mode="text", cliponaxis=False,
         text=["<b>%s</b>" % label(g) for g in gears], textposition="middle right",
         textfont=dict(color=[colours[g.number] for g in gears]), hoverinfo="skip",
-        showlegend=False, meta=meta, visible=visible)
+        showlegend=False, meta=meta, visible=False)
 
 
 def speeds_to_compare(data):
-    top = data.about["speed_max_rpm"]
-    return [round(top * share, -2) for share in (0.15, 0.35, 0.7)]
+    return [easy(share * data.about["speed_max_rpm"]) for share in (0.15, 0.35, 0.7)]
 
 
 def comparison_figure(data, gears):
@@ -152,8 +176,9 @@ def comparison_figure(data, gears):
                     dash="dash" if gear.number < 0 else "solid"),
                 hovertemplate="%s: %%{y:.2f} %% at %%{x:.0f} N·m<extra></extra>"
                               % gear_name(gear.number)))
-        plot.add_trace(end_labels(gears, 1.006 * top, [line[-1] for line in eta[speed]],
-                                  (100 - lowest) / 20, meta, False))
+        plot.add_trace(end_labels(gears, colours, 1.006 * top,
+                                  [line[-1] for line in eta[speed]],
+                                  (100 - lowest) / 20, meta))
     plot.update_yaxes(range=[lowest, 100])
     plot.update_xaxes(range=[0, 1.03 * top])
     choices = choice("gears", "speed", "Speed of the input",
@@ -170,30 +195,54 @@ def comparison_figure(data, gears):
 
 # ---- without load ----
 
-def no_load_figure(gears):
+OTHERS = (("neutral", "in neutral", 0), ("higher", "the next higher gear waits", 1),
+          ("lower", "the next lower gear waits", -1))
+
+
+def no_load_lines(data, gears, step):
+    """[(gear, speed, torque)], with a gear that waits on the other path: the one by so
+    many steps higher; 0: it is in neutral."""
+    top = max(g.speed[-1] for g in gears)
+    path_of = {g.number: g.path for g in gears}
+    found = []
+    for gear in gears:
+        other = gear.number + step if step else 0
+        if other and (gear.number < 0 or path_of.get(other, gear.path) == gear.path):
+            continue
+        speed, torque = gear.parasitic(data, other)
+        inside = speed <= 1.001 * top
+        if inside.any():
+            found.append((gear, speed[inside], torque[inside]))
+    return found
+
+
+def no_load_figure(data, gears):
     plot = canvas(420, SPEED, "lost torque at the input [N·m]", showlegend=False)
     colours = of_gears([g.number for g in gears])
     top = max(g.speed[-1] for g in gears)
-    ends, highest = [], 0.0
-    for gear in gears:
-        inside = gear.no_load_speed <= top * 1.001
-        ends.append(gear.no_load_nodes[inside][-1])
-        highest = max(highest, gear.no_load_nodes[inside].max())
-        plot.add_trace(go.Scatter(
-            x=gear.no_load_speed[inside], y=gear.no_load_nodes[inside],
-            mode="lines+markers", marker=dict(size=4),
-            line=dict(color=colours[gear.number], width=2,
-                      dash="dash" if gear.number < 0 else "solid"),
-            hovertemplate="%s: %%{y:.3g} N·m at %%{x:.0f} rpm<extra></extra>"
-                          % gear_name(gear.number)))
-    plot.add_trace(end_labels(gears, 1.006 * top, ends, highest / 20, None))
+    lines = {key: no_load_lines(data, gears, step) for key, _, step in OTHERS}
+    highest = max(torque.max() for some in lines.values() for _, _, torque in some)
+    for key, some in lines.items():
+        meta = {"other": key}
+        for gear, speed, torque in some:
+            plot.add_trace(go.Scatter(
+                x=speed, y=torque, mode="lines+markers", marker=dict(size=4), meta=meta,
+                visible=False, line=dict(color=colours[gear.number], width=2,
+                                         dash="dash" if gear.number < 0 else "solid"),
+                hovertemplate="%s: %%{y:.3g} N·m at %%{x:.0f} rpm<extra></extra>"
+                              % gear_name(gear.number)))
+        if some:
+            plot.add_trace(end_labels([g for g, _, _ in some], colours, 1.006 * top,
+                                      [t[-1] for _, _, t in some], highest / 20, meta))
     plot.update_xaxes(range=[0, top * 1.03])
     plot.update_yaxes(range=[0, 1.06 * highest])
+    choices = choice("no-load", "other", "The other input is",
+                     [(key, words) for key, words, _ in OTHERS if lines[key]], "neutral")
     return embed("no-load", plot,
                  "What it takes to turn the gearset alone, with no torque carried: bearings, "
                  "seals, oil. Dots are the nodes of the tables.",
                  "Torque that the gearset needs to turn without load, over the speed of "
-                 "the input, one line for each gear.")
+                 "the input, one line for each gear.", choices)
 
 
 # ---- free shafts ----
@@ -246,8 +295,8 @@ def drag_figure(data):
             trace.update(meta=None, visible=True)
     return embed("drag", plot,
                  "Torque that holds back an input shaft in neutral (red; blue: it is "
-                 "carried along). It jumps where the shaft turns in step with one of its "
-                 "gears: dotted lines with the gear's number.",
+                 "carried along). On the dotted lines the shaft turns in step with the gear "
+                 "of that number; there the torque can jump.",
                  "Drag torque on an input shaft in neutral over its own speed and the "
                  "speed of the output.", choices)
 
@@ -271,18 +320,18 @@ def best_words(data, gears):
         unit(gear.torque[where[1]], "N·m")))
 
 
-def chapter(data, breakdown):
+def chapter(data, results, breakdown):
     """breakdown: HTML of the part by component."""
     gears = all_gears(data)
     text = ('<section id="one-gear"><h2>How much power does it lose?</h2>'
             + best_words(data, gears) + temperature_words(data)
-            + "<h3>How much does one gear lose?</h3>" + map_figure(data, gears)
+            + "<h3>How much does one gear lose?</h3>" + map_figure(data, results, gears)
             + "</section>")
     if len(gears) > 1:
         text += ('<section id="compare"><h2>Which gear is the most efficient?</h2>'
                  + comparison_figure(data, gears) + "</section>")
     text += ('<section id="idle"><h2>What does it lose without load?</h2>'
-             + no_load_figure(gears) + "</section>")
+             + no_load_figure(data, gears) + "</section>")
     if len(data.drag):
         text += ('<section id="free"><h2>How strongly are free shafts held back?</h2>'
                  + drag_figure(data) + "</section>")

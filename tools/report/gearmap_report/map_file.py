@@ -46,11 +46,12 @@ class Map:
         rows = self.gears[(self.gears["path"] == path) & (self.gears["gear"] == number)]
         return rows.iloc[0]
 
-    def configuration_of(self, path, number):
-        """Gears of path 0 and 1 with this gear alone engaged (None: no such path)."""
-        first = self.paths.index(path) == 0
-        other = 0 if len(self.paths) > 1 else None
-        return (number, other) if first else (0, number)
+    def configuration_of(self, path, number, other=0):
+        """Gears of path 0 and 1 with this gear engaged and the other path in the gear
+        other, 0: neutral (None: no such path)."""
+        if len(self.paths) == 1:
+            return number, None
+        return (number, other) if self.paths.index(path) == 0 else (other, number)
 
 
 VERIFICATION = "SELECT rowid AS id, * FROM verification"

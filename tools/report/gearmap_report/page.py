@@ -12,11 +12,11 @@ from . import accuracy, breakdown, limits, losses, origin, proof, what
 from .drive import Drive
 from .series import compressed
 from .timelines import Timelines
-from .words import number, percent, plural
+from .words import number, percent
 
 ASSETS = Path(__file__).parent / "assets"
 STYLES = ("page.css", "drawing.css", "print.css")
-SCRIPTS = ("unpack.js", "theme.js", "figures.js", "choices.js", "timelines.js",
+SCRIPTS = ("unpack.js", "theme.js", "print.js", "figures.js", "choices.js", "timelines.js",
            "drawing.js", "start.js")
 CHAPTERS = (("gearset", "Gearset"), ("losses", "Losses"), ("proof", "Proof"),
             ("limits", "Limits"), ("origin", "Origin"))
@@ -40,10 +40,11 @@ def facts(data, results):
         found.append(fact("%s×" % number(cycle["detailed"]["cpu_s"] / best["cpu_s"], 2),
                           "faster than the detailed model"))
         worst = max(abs(r["errors"]["loss_energy_relative"]) for r in cycle["reduced"])
-        found.append(fact(percent(worst, 2), "difference of lost energy over a drive"))
+        found.append(fact(percent(worst, 2), "difference of the energy lost over a drive"))
     single = accuracy.numbers(data, results).get("single")
     if single:
-        found.append(fact(percent(single[2], 2), "typical difference of the losses"))
+        found.append(fact(percent(single[2], 2), "typical difference of a loss from the "
+                          "detailed model"))
     return '<ul class="facts">%s</ul>' % "".join(found)
 
 
@@ -74,7 +75,8 @@ def block(name, kind, text):
 def make_timelines(results):
     if results.trace is None:
         return None, None
-    cycle = next((c for c in results.cycles), None)
+    end = results.trace["time_s"].iloc[-1]
+    cycle = next((c for c in results.cycles if abs(c["duration_s"] - end) < 0.5), None)
     drive = Drive(results.trace, cycle)
     return drive, Timelines(drive)
 
@@ -82,7 +84,7 @@ def make_timelines(results):
 def make(data, gearset, results):
     drive, timelines = make_timelines(results)
     texts = (what.chapter(data, gearset),
-             losses.chapter(data, breakdown.chapter(data, gearset, drive)),
+             losses.chapter(data, results, breakdown.chapter(data, gearset, drive)),
              proof.chapter(data, results, timelines), limits.chapter(data, drive),
              origin.chapter(data, results))
     chapters = "".join('<div id="%s">%s</div>' % (name, text)

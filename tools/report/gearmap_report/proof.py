@@ -8,7 +8,8 @@ import plotly.graph_objects as go
 from . import accuracy
 from .colours import RUNS
 from .figure import canvas, embed
-from .words import gear_name, number, ordinal, paragraph, percent, plural, table, unit
+from .words import (RPM, cycle_name, gear_name, number, ordinal, paragraph, percent, table,
+                    unit)
 
 COMMANDS = """gearmap verify DESCRIPTION.yaml COMPONENT.fmu --steady --cycle ece15 \\
     --trace drive.csv --json &gt; verify.json
@@ -37,10 +38,22 @@ def tiles(cycle):
                    (number(run["real_time_factor"], 2) + "×", "faster than real time"),
                    (percent(abs(run["errors"]["loss_energy_relative"]), 2),
                     "difference of the energy lost"))
-        found += '<div class="tile"><h3>%s</h3><ul class="facts">%s</ul></div>' % (
+        found += '<div class="tile"><h3>%s</h3><ul class="facts">%s</ul>%s</div>' % (
             escape(run_name(run)),
-            "".join("<li><b>%s</b> <span>%s</span></li>" % e for e in entries))
+            "".join("<li><b>%s</b> <span>%s</span></li>" % e for e in entries),
+            largest_words(run))
     return '<div class="tiles">%s</div>' % found
+
+
+def largest_words(run):
+    """The largest differences of the motion; results of earlier versions have none."""
+    found = run.get("differences") or {}
+    car, engine = found.get("vehicle_speed_km_h"), found.get("engine_speed_rad_s")
+    if not car or not engine:
+        return ""
+    return paragraph("At no moment of the drive was the vehicle more than %s away from its "
+                     "speed with the detailed model, or the engine more than %s." % (
+                         unit(car["max"], "km/h", 2), unit(engine["max"] * RPM, "rpm", 2)))
 
 
 FIDELITIES = paragraph(
@@ -59,7 +72,7 @@ def passport_rows(cycle):
     return [
         row("Processor time saved", lambda r: percent(r["cpu_saved"], 3)),
         row("Engine speed, typical difference",
-            lambda r: unit(r["errors"]["engine_speed_rms_rad_s"] * 9.5493, "rpm", 2)),
+            lambda r: unit(r["errors"]["engine_speed_rms_rad_s"] * RPM, "rpm", 2)),
         row("Vehicle speed, typical difference",
             lambda r: unit(r["errors"]["vehicle_speed_rms_km_h"], "km/h", 2)),
         row("Output torque below 5 Hz, typical difference",
@@ -68,7 +81,7 @@ def passport_rows(cycle):
             lambda r: percent(r["errors"]["input_torque_5Hz_rms_relative"], 2)),
         row("Energy lost in the gearset",
             lambda r: percent(r["errors"]["loss_energy_relative"], 2)),
-        row("What the energy account leaves open",
+        row("Energy that is not accounted for",
             lambda r: number(1e6 * r["energy_balance_relative"], 2) + " millionths"),
     ]
 
@@ -76,7 +89,8 @@ def passport_rows(cycle):
 def numbers_section(cycle):
     words = paragraph(
         "One and the same vehicle drove <b>%s</b> (%s, %s) with the detailed model and "
-        "with the component." % (escape(cycle["cycle"]), unit(cycle["duration_s"], "s", 4),
+        "with the component." % (escape(cycle_name(cycle["cycle"])),
+                                 unit(cycle["duration_s"], "s", 4),
                                  unit(cycle["distance_m"] / 1e3, "km")),
         "The detailed model took %s of one processor core." % unit(
             cycle["detailed"]["cpu_s"], "s"))
@@ -99,8 +113,6 @@ def gears_figure(cycle, figure_id):
     for name, colour, pattern, energy in bars:
         plot.add_trace(go.Bar(
             x=names, y=[e / 1e3 for e in energy], name=name,
-            text=["%.3g" % (e / 1e3) for e in energy], textposition="outside",
-            cliponaxis=False,
             marker=dict(color=colour, pattern=dict(
                 shape=pattern, fillmode="overlay", solidity=0.2,
                 fgcolor="rgba(255,255,255,0.6)")),
@@ -144,7 +156,7 @@ def chapter(data, results, timelines):
     for i, cycle in enumerate(results.cycles):
         name = "comparison-%d" % i
         text += section(name, "Is it as good as the detailed model?" if i == 0 else
-                        "And over %s?" % escape(cycle["cycle"]), numbers_section(cycle))
+                        "And over %s?" % escape(cycle_name(cycle["cycle"])), numbers_section(cycle))
     if timelines:
         text += timeline_sections(timelines)
     for i, cycle in enumerate(results.cycles):

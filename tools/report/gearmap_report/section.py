@@ -10,8 +10,8 @@ from .spread import spread
 from .unfold import unfold
 
 MARGIN = 14.0  # mm around the drawing
-NAME_ROOM = 4.0
-NAME_STEP = 11.0  # between names
+WIDE, HIGH = 725.0, 540.0  # pixels that a screen has for it
+NAME_ROOM, NAME_STEP, LETTER = 5.0, 14.0, 7.0  # pixels: beside, between, in names
 
 
 def value(number, other):
@@ -222,25 +222,36 @@ class Section:
     def flow_points(self, flow):
         """Along the shafts, then across where teeth meet. Parts beside the axis (planets,
         rings, hollow shafts) are followed above it."""
-        first = self.shaft[flow[0]]
-        x = self.flange(first)
+        x = self.flange(self.shaft[flow[0]])
         points = [(x, self.offset(flow[0], x))]
         for before, name in zip(flow, flow[1:]):
             if name in self.gear:
                 gear = self.gear[name]
-                points.append((gear["position_mm"], points[-1][1]))
+                points += (self.along(before, points[-1][0], gear["position_mm"])
+                           if before in self.shaft
+                           else [(gear["position_mm"], points[-1][1])])
                 points.append((gear["position_mm"], self.gear_offset(gear)))
             else:
                 x = points[-1][0]
                 if before in self.shaft:  # through a clutch
-                    x = meeting(self.extent(before), self.extent(name))
-                    points.append((x, points[-1][1]))
+                    at = meeting(self.extent(before), self.extent(name))
+                    points += self.along(before, x, at)
+                    x = at
                 points.append((x, self.offset(name, x)))
-        ends = self.extent(flow[-1])
-        points.append((max(ends, key=lambda x: abs(x - points[-1][0])),
-                       self.offset(flow[-1], points[-1][0])))
-        points[-2] = (points[-2][0], points[-1][1])
-        return points
+        x = points[-1][0]
+        end = max(self.extent(flow[-1]), key=lambda end: abs(end - x))
+        return points + self.along(flow[-1], x, end)
+
+    def along(self, name, x0, x1):
+        """From x0 to x1 in a shaft."""
+        sign = 1 if x1 >= x0 else -1
+        steps = sorted((s["from_mm"] for s in self.shaft[name]["segments"]
+                        if min(x0, x1) < s["from_mm"] < max(x0, x1)), key=lambda x: sign * x)
+        found = [(x0, self.offset(name, x0 + sign * 0.01))]
+        for x in steps:
+            found += [(x, self.offset(name, x - sign * 0.01)),
+                      (x, self.offset(name, x + sign * 0.01))]
+        return found + [(x1, self.offset(name, x1 - sign * 0.01))]
 
     def flange(self, shaft):
         return value(shaft.get("flange_mm"), shaft["segments"][0]["from_mm"])
@@ -273,13 +284,15 @@ class Section:
 
     # ---- all of it ----
 
-    def names(self):
-        """Names of the shafts at the left of the drawing, near the height of their axis."""
+    def names(self, unit):
+        """Names of the shafts at the left of the drawing, near the height of their axis.
+        unit: mm of a pixel."""
         left = min(self.extent(s)[0] for s in self.shaft)
         wanted = sorted((-axis.height + 0.1 * i, name) for axis in self.layout.axes
                         for i, name in enumerate(axis.shafts))
-        heights = spread([y for y, _ in wanted], NAME_STEP)
-        return "".join(svg.text(left - NAME_ROOM, y + 3, spoken(name), class_="name",
+        heights = spread([y for y, _ in wanted], NAME_STEP * unit)
+        return "".join(svg.text(left - NAME_ROOM * unit, y + 4 * unit, spoken(name),
+                                class_="name",
                                 data_on=self.on(name))
                        for y, (_, name) in zip(heights, wanted))
 
@@ -341,11 +354,12 @@ def spoken(name):
     return name.replace("_", " ")
 
 
-def scale_bar(x, y):
+def scale_bar(x, y, unit):
     """100 mm, so that the scale can be read at any size."""
-    return svg.tag("g", svg.line(x, y, x + 100, y) + svg.line(x, y - 3, x, y + 3)
-                   + svg.line(x + 100, y - 3, x + 100, y + 3)
-                   + svg.text(x + 50, y - 4, "100 mm", class_="scale-name"),
+    end = 4 * unit
+    return svg.tag("g", svg.line(x, y, x + 100, y) + svg.line(x, y - end, x, y + end)
+                   + svg.line(x + 100, y - end, x + 100, y + end)
+                   + svg.text(x + 50, y - end, "100 mm", class_="scale-name"),
                    class_="scale")
 
 
@@ -354,13 +368,14 @@ def draw_section(gearset, label):
     section = Section(gearset)
     body = section.draw()
     x0, x1, low, high = section.limits()
-    room = 6.0 * max(len(n) for n in section.shaft) + NAME_ROOM
-    box = (x0 - room - MARGIN, low - MARGIN, x1 - x0 + room + 2 * MARGIN,
-           high - low + 2 * MARGIN + 18)
+    names = LETTER * max(len(n) for n in section.shaft) + NAME_ROOM
+    unit = max((x1 - x0 + 2 * MARGIN) / (WIDE - names), (high - low + 2 * MARGIN) / (HIGH - 30))
+    box = (x0 - names * unit - MARGIN, low - MARGIN, x1 - x0 + names * unit + 2 * MARGIN,
+           high - low + 2 * MARGIN + 30 * unit)
     arrow = svg.tag("marker", svg.tag("path", d="M0,0 L8,4 L0,8 Z", class_="arrow"),
                     id="arrow", viewBox="0 0 8 8", refX="6", refY="4", markerWidth="5",
                     markerHeight="5", orient="auto-start-reverse")
     content = (svg.tag("defs", arrow) + section.axis_lines() + body + section.draw_flows()
-               + "".join(section.words) + section.names() + scale_bar(x1 - 100, high + MARGIN + 8))
-    return svg.tag("svg", content, viewBox=" ".join(svg.number(v) for v in box),
-                   role="img", aria_label=label, class_="section")
+               + "".join(section.words) + section.names(unit)
+               + scale_bar(x1 - 100, high + MARGIN + 20 * unit, unit))
+    return svg.frame(content, box, unit, label, "section")

@@ -22,6 +22,14 @@ def tag(name, content="", **given):
     return "<%s%s>%s</%s>" % (name, attributes(given), content, name)
 
 
+def frame(content, box, unit, label, kind):
+    """A whole picture. box: x, y, width, height; unit: its lengths in one pixel when it is
+    shown as large as it is meant to be, so that words are as large in every picture."""
+    return tag("svg", content, viewBox=" ".join(number(v) for v in box), role="img",
+               aria_label=label, class_=kind,
+               style="--unit:%.4f;--natural:%dpx" % (unit, round(box[2] / unit)))
+
+
 def text(x, y, words, **given):
     return tag("text", escape(words), x=float(x), y=float(y), **given)
 

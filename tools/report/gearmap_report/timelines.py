@@ -2,15 +2,18 @@
 """Figures over the time of a drive. Their lines are filled in by the page's script from the
 series, at the resolution of what is seen: so a zoom shows every sample. All of them zoom
 together."""
+from html import escape
+
 import plotly.graph_objects as go
 
 from .colours import RUNS
 from .figure import canvas, choice, embed
 from .series import pack
-from .words import number, paragraph, plural, unit
+from .words import unit
 
 STYLE = {"detailed": dict(width=4), "rigid": dict(width=1.6, dash="dash"),
          "lash": dict(width=1.6)}
+ALONE = {"rigid": dict(width=1.1), "lash": dict(width=2.2)}  # of differences: no dashes
 NAMES = {"detailed": "detailed model", "rigid": "component, rigid",
          "lash": "component, lash"}
 TIME = "time [s]"
@@ -22,11 +25,12 @@ class Timelines:
     def __init__(self, drive):
         self.drive, self.series = drive, {}
 
-    def line(self, plot, key, samples, run, row, meta=None, first=False, name=None):
+    def line(self, plot, key, samples, run, row, meta=None, first=False, name=None,
+             style=STYLE):
         self.series[key] = samples
         plot.add_trace(go.Scatter(
             x=[], y=[], mode="lines", name=name or NAMES[run], legendgroup=run,
-            showlegend=first, line=dict(color=RUNS[run], **STYLE[run]),
+            showlegend=first, line=dict(color=RUNS[run], **style[run]),
             xaxis="x", yaxis="y%s" % (row if row > 1 else ""), visible=meta is None,
             meta={"series": key, **(meta or {})},
             hovertemplate="%{x:.2f} s: %{y:.5g}<extra>" + (name or NAMES[run])
@@ -92,14 +96,15 @@ class Timelines:
             ("smooth", "below 5 Hz: what car and driver feel"),
             ("raw", "everything, with vibrations")], "smooth")
         return embed("torques", plot, "Torques into the gearset at its inputs and out of it "
-                     "at its output.", "Torques at every flange of the gearset over the "
+                     "at its output. Draw a box around a moment, or choose one above, to see "
+                     "it closer.", "Torques at every flange of the gearset over the "
                      "time of the drive, detailed model and component.", choices,
                      kind="timeline")
 
     def differences(self):
         drive = self.drive
         plot = self.rows(520, ["vehicle [km/h]", "engine [rpm]", "output [N·m]"], 0.05)
-        for run in drive.reduced:
+        for run in reversed(drive.reduced):  # the smaller ones in front
             for row, (key, got, true) in enumerate((
                     ("car", drive.run(run, "vehicle_speed_km_h"),
                      drive.run("detailed", "vehicle_speed_km_h")),
@@ -108,7 +113,7 @@ class Timelines:
                     ("output", drive.filtered[run, "output"],
                      drive.filtered["detailed", "output"])), 1):
                 self.line(plot, "%s.%s.difference" % (run, key), got - true, run, row,
-                          first=row == 1)
+                          first=row == 1, style=ALONE)
         return embed("differences", plot, "Component minus detailed model; output torque "
                      "below 5 Hz. Zero: no difference.",
                      "Differences of vehicle speed, engine speed and output torque over "
@@ -133,7 +138,7 @@ class Timelines:
         return [(label, max(0.0, a), min(end, b)) for label, a, b in found]
 
     def controls(self):
-        options = "".join('<option value="%.3f,%.3f">%s</option>' % (a, b, label)
+        options = "".join('<option value="%.3f,%.3f">%s</option>' % (a, b, escape(label))
                           for label, a, b in self.places())
         return ('<div class="look"><label>Look at <select id="look">%s</select></label>'
                 '<button type="button" data-move="in">closer</button>'

@@ -5,15 +5,15 @@ from html import escape
 from .efficiency import GearLosses
 from .end_view import draw_end_view
 from .section import draw_section
-from .words import gear_name, number, paragraph, percent, plural, table, unit
+from .words import easy, gear_name, number, paragraph, percent, plural, table, unit
 
 POINT = (2000.0, 0.4)  # rpm, share of the largest torque: where gears are compared
 
 
 def point_of(data):
     """A speed and torque in the range of the map, easy to remember."""
-    speed = min(POINT[0], round(0.4 * data.about["speed_max_rpm"], -2))
-    return speed, round(POINT[1] * data.about["torque_max_Nm"], -1)
+    speed = min(POINT[0], easy(0.4 * data.about["speed_max_rpm"]))
+    return speed, easy(POINT[1] * data.about["torque_max_Nm"])
 
 
 def kind_of(gearset, data):
@@ -36,8 +36,8 @@ def buttons(data):
         '<label><input type="radio" name="flow" value="%d"%s> %s</label>'
         % (number_, " checked" if number_ == first else "",
            "R" if number_ == -1 else number_) for _, number_ in gears)
-    return ('<fieldset class="choice" id="flow-choice"><legend>Show the power flow of gear'
-            "</legend>%s</fieldset>" % labels)
+    return ('<fieldset class="choice" id="flow-choice"%s><legend>Show the power flow of gear'
+            "</legend>%s</fieldset>" % (" hidden" * (len(gears) < 2), labels))
 
 
 def flow_words(gearset, number_of_gear):
@@ -71,13 +71,25 @@ def drawing(data, gearset):
             + '<div class="drawings"><figure class="wide"><div class="scroll" tabindex="0" '
             'role="region" aria-label="Drawing of the section">%s</div>'
             "<figcaption>%s</figcaption></figure>"
-            "<figure>%s<figcaption>Seen along the shafts, from the rear.</figcaption>"
-            "</figure></div>" % (section, note, draw_end_view(gearset, end))
-            + '<p class="key"><span class="k gear"></span> gear fixed on its shaft '
-            '<span class="k idler"></span> gear that turns freely until locked '
-            '<span class="k shaft"></span> shaft <span class="k bearing"></span> bearing '
-            '<span class="k sync"></span> synchroniser or clutch '
-            '<span class="k on"></span> carries the power</p>')
+            "<figure>%s<figcaption>The same, seen from the right end of the section."
+            "</figcaption></figure></div>" % (section, note, draw_end_view(gearset, end))
+            + key(parts))
+
+
+def key(parts):
+    """What the colours mean, of what there is."""
+    planets = any(g["planets"] for g in parts["gears"])
+    entries = [("gear", "gear fixed on its shaft", True),
+               ("idler", "gear that turns freely until locked",
+                any(g["idles"] for g in parts["gears"])),
+               ("idler", "planet", planets), ("shaft", "shaft", True),
+               ("bearing", "bearing", True),
+               ("sync", "synchroniser", parts["synchronisers"]),
+               ("sync", "clutch or brake", parts["clutches"]),
+               ("on", "carries the power", True)]
+    return '<p class="key">%s</p>' % " ".join(
+        '<span><span class="k %s"></span> %s</span>' % (kind, words)
+        for kind, words, there in entries if there)
 
 
 def gear_rows(data):
@@ -103,7 +115,9 @@ def gear_table(data):
     head = ["Gear", "Ratio", "Efficiency", "Inertia at the input [kg·m²]",
             "Stiffness at the input [N·m/rad]", "Free play at the input [°]"]
     caption = ("Ratio: turns of the input for one turn of the output. Efficiency: at %s and "
-               "%s of the input." % (unit(speed, "rpm", 4), unit(torque, "N·m")))
+               "%s of the input. Inertia: of all that turns with this gear, as the input feels "
+               "it. Stiffness and free play: with the output held."
+               % (unit(speed, "rpm", 4), unit(torque, "N·m")))
     return table(head, gear_rows(data), caption)
 
 

@@ -3,20 +3,29 @@
 from html import escape
 from math import floor, isfinite, log10
 
+RPM = 9.549296585513721  # of 1 rad/s
 NARROW = "\u202f"  # no-break space between groups of digits, and before units
 
 
-def number(value, digits=3):
-    """Significant digits, no exponent: 0.0123, 4.56, 12 300."""
-    if value is None or not isfinite(value):
-        return "–"
+def significant(value, digits):
+    """No exponent: 0.0123, 1.00, 12300."""
     if value == 0:
         return "0"
-    places = max(0, digits - 1 - floor(log10(abs(value))))
-    rounded = round(value, digits - 1 - floor(log10(abs(value))))
-    text = "%.*f" % (places, rounded)
-    if rounded == int(rounded):
-        text = "%d" % rounded
+    places = digits - 1 - floor(log10(abs(value)))
+    return "%.*f" % (max(0, places), round(value, places))
+
+
+def number(value, digits=3):
+    """Significant digits, no exponent, whole numbers without a point: 0.0123, 12 300."""
+    if value is None or not isfinite(value):
+        return "–"
+    text = significant(value, digits)
+    whole, _, rest = text.partition(".")
+    return spaced(text if rest.strip("0") else whole)
+
+
+def spaced(text):
+    """Digits in groups of three where they are many, a real minus sign."""
     whole, dot, rest = text.partition(".")
     sign, whole = ("−", whole[1:]) if whole.startswith("-") else ("", whole)
     if len(whole) > 4:
@@ -29,7 +38,24 @@ def unit(value, name, digits=3):
 
 
 def percent(share, digits=2):
-    return number(100.0 * share, digits) + NARROW + "%"
+    """With all digits, so that columns of it stand alike: 98.00 %."""
+    if not isfinite(share):
+        return "–"
+    return spaced(significant(100.0 * share, digits)) + NARROW + "%"
+
+
+CYCLES = {"ece15": "ECE-15", "urban": "the urban part of the NEDC (ECE-15, four times)",
+          "eudc": "EUDC", "nedc": "NEDC", "wltc3b": "WLTC class 3b"}
+
+
+def easy(value):
+    """Near the value, and easy to remember: 2000 for 2275."""
+    return float("%.1g" % value)
+
+
+def cycle_name(name):
+    """As people call it; a file's cycle by the file's name."""
+    return CYCLES.get(name) or name.replace("\\", "/").rsplit("/", 1)[-1]
 
 
 def ordinal(number_of_gear):

@@ -35,6 +35,7 @@ function fitScreen(div, layout, data) {
   layout.dragmode = false;
   layout.margin = { ...layout.margin, l: 44, t: 16 };
   layout.font.size = 11;
+  layout.legend = { ...layout.legend, xref: "container" };
   for (const trace of data)
     if (trace.colorbar)
       trace.colorbar = {
@@ -52,6 +53,8 @@ async function draw(div) {
   if (div.dataset.kind === "timeline") prepareTimeline(data, layout);
   await Plotly.newPlot(div, data, layout, narrow() ? { ...CONFIG, displayModeBar: false } : CONFIG);
   if (div.dataset.kind === "timeline") listenToTimeline(div);
+  // the figure's label stands for what is drawn; the buttons beside it stay
+  for (const drawn of div.querySelectorAll(".main-svg")) drawn.ariaHidden = "true";
 }
 
 function breathe() {

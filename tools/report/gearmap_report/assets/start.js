@@ -6,6 +6,7 @@ async function start() {
   startTheme();
   startChoices();
   startTimelines();
+  startPrint();
   await breathe();
   await loadPlotly();
   await loadSeries();

@@ -30,7 +30,6 @@ function paintFigures() {
   for (const div of drawnFigures()) Plotly.relayout(div, themeOf(div.layout));
 }
 
-/* The choice is kept by the browser where it keeps anything for a page on disk. */
 function setTheme(name) {
   if (name === "auto") delete document.documentElement.dataset.theme;
   else document.documentElement.dataset.theme = name;
@@ -43,14 +42,4 @@ function startTheme() {
     paintFigures();
   });
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", paintFigures);
-  let before = null;
-  addEventListener("beforeprint", () => {
-    before = select.value;
-    setTheme("light");
-    paintFigures();
-  });
-  addEventListener("afterprint", () => {
-    setTheme(before);
-    paintFigures();
-  });
 }
