@@ -64,7 +64,8 @@ def browser():
 DRAWN = """[...document.querySelectorAll('.plot')].map((div) => ({id: div.id,
   drawn: !!div.querySelector('.main-svg'), traces: div.data.filter((t) => t.visible === true)
   .filter((t) => t.z || (t.x && (t.x.length || t.x.bdata))).length, marks: div.querySelectorAll(
-  '.plot path, .plot text, .plot image, .contour path, .hm image').length}))"""
+  '.plot path, .plot text, .plot image, .contour path, .hm image').length,
+  room: div._fullLayout._size.w / div.clientWidth}))"""
 CUT = """(() => { const wide = document.documentElement.clientWidth;
   return [...document.querySelectorAll('h1, h2, h3, p, figure, fieldset, .plot, .tile, select')]
     .filter((e) => { const b = e.getBoundingClientRect(); return b.width && b.right > wide + 1; })
@@ -83,6 +84,7 @@ def check_view(browser, page, width, dark=False):
     assert browser.requests() == []
     for plot in browser.run(DRAWN):
         assert plot["drawn"] and plot["traces"] and plot["marks"], plot
+        assert plot["room"] > 0.45, plot  # for lines and bars beside titles and legend
     assert browser.run(CUT) == []
     assert browser.run(LABELS_OUT) == []
     assert browser.run("document.documentElement.scrollWidth") <= width

@@ -9,12 +9,12 @@ from .colours import HELD_OUT
 from .figure import canvas, embed
 from .words import gear_name, number, ordinal, paragraph, percent, plural, table
 
-KINDS = {  # name -> what the gearset does, what is compared
-    "single": ("one path drives", "lost torque"),
-    "preselected": ("one path drives, the next gear waits on the other", "lost torque"),
-    "both_loaded": ("both paths carry torque, as in a shift", "lost torque"),
-    "drag": ("an input shaft turns free in neutral", "drag on it"),
-    "reaction": ("an input shaft turns free in neutral", "what it adds at the output"),
+KINDS = {  # name -> what is compared
+    "single": "Lost torque, one input drives",
+    "preselected": "Lost torque, the next gear waits on the other input",
+    "both_loaded": "Lost torque, both inputs carry torque, as in a shift",
+    "drag": "Drag on an input shaft in neutral",
+    "reaction": "What that shaft adds to the drag at the output",
 }
 
 
@@ -48,13 +48,13 @@ def numbers(data, results):
 
 
 def kinds_table(found):
-    rows = [[words, what, percent(found[kind][2], 2), percent(found[kind][1], 2)]
-            for kind, (words, what) in KINDS.items() if kind in found]
+    rows = [[words, percent(found[kind][2], 2), percent(found[kind][1], 2)]
+            for kind, words in KINDS.items() if kind in found]
     counts = sorted({points for points, _, _ in found.values()})
     many = " to ".join(number(n, 6) for n in (counts[0], counts[-1])[:len(counts)])
-    return table(["When", "Compared", "Typical difference", "Largest difference"], rows,
+    return table(["Compared", "Typical difference", "Largest difference"], rows,
                  "Each line: %s random points. Differences are shares of the largest value "
-                 "of the same gear and direction. Typical: root mean square." % many, 2)
+                 "of the same gear and direction. Typical: root mean square." % many)
 
 
 def points_figure(data):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """Chapter 5: where all this comes from."""
+import re
 from html import escape
+from itertools import takewhile
 
 from .words import RPM, number, paragraph, table, unit
 
@@ -62,13 +64,11 @@ def map_section(data, results):
 
 
 def first_words(description):
-    """The comment at the head of a description, where its author tells the sources."""
-    lines = []
-    for line in description.splitlines():
-        if not line.startswith("#"):
-            break
-        lines.append(line[1:].removeprefix(" "))
-    return "\n".join(lines).strip()
+    """The comment at the head of a description, where its author tells the sources. Lines
+    that are set in continue the one before."""
+    comment = takewhile(lambda line: line.startswith("#"), description.splitlines())
+    text = "\n".join(line[1:].removeprefix(" ") for line in comment)
+    return re.sub(r"\n +(?=\S)", " ", text).strip()
 
 
 def description_section(data):

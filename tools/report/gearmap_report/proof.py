@@ -8,8 +8,7 @@ import plotly.graph_objects as go
 from . import accuracy
 from .colours import RUNS
 from .figure import canvas, embed
-from .words import (RPM, cycle_name, gear_name, number, ordinal, paragraph, percent, table,
-                    unit)
+from .words import RPM, cycle_name, number, ordinal, paragraph, percent, table, unit
 
 COMMANDS = """gearmap verify DESCRIPTION.yaml COMPONENT.fmu --steady --cycle ece15 \\
     --trace drive.csv --json &gt; verify.json
@@ -104,8 +103,8 @@ def gears_figure(cycle, figure_id):
     """Energy lost while each gear drives."""
     runs = cycle["reduced"]
     gears = [g["gear"] for g in runs[0]["loss_by_gear"]]
-    names = [gear_name(n) for n in gears]
-    plot = canvas(360, None, "lost energy [kJ]", barmode="group")
+    names = [ordinal(n) for n in gears]
+    plot = canvas(360, "gear", "lost energy [kJ]", barmode="group")
     bars = [("detailed model", RUNS["detailed"], "",
              [g["detailed_J"] for g in runs[0]["loss_by_gear"]])]
     bars += [("component, " + run_name(r), RUNS[r["fidelity"]], "/" if i == 0 else "",

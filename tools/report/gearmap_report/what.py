@@ -5,7 +5,7 @@ from html import escape
 from .efficiency import GearLosses
 from .end_view import draw_end_view
 from .section import draw_section
-from .words import easy, gear_name, number, paragraph, percent, plural, table, unit
+from .words import easy, gear_name, number, ordinal, paragraph, percent, plural, table, unit
 
 POINT = (2000.0, 0.4)  # rpm, share of the largest torque: where gears are compared
 
@@ -103,7 +103,7 @@ def gear_rows(data):
         losses = GearLosses(data, path, n)
         eta = losses.efficiency_at(speed, [torque])[0]
         stiffness = gear["stiffness_Nm_rad"]
-        rows.append([escape(gear_name(n).capitalize()), number(ratio, 5),
+        rows.append([ordinal(n).capitalize(), number(ratio, 5),
                      percent(eta, 4), number(inertia, 3),
                      number(stiffness, 3) if stiffness else "rigid",
                      number(gear["lash_deg"], 3)])

@@ -35,7 +35,6 @@ function fitScreen(div, layout, data) {
   layout.dragmode = false;
   layout.margin = { ...layout.margin, l: 44, t: 16 };
   layout.font.size = 11;
-  layout.legend = { ...layout.legend, xref: "container" };
   for (const trace of data)
     if (trace.colorbar)
       trace.colorbar = {
