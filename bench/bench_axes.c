@@ -36,7 +36,7 @@ static gm_status measure(const gm_plant *plant, const gm_sweep_options *options,
         gm_sweep_run(plant, options, NULL, NULL, NULL, &map, &summary, error);
     if (status != GM_OK)
         return status;
-    status = gm_verify_map(plant, map, 0, POINTS, SEED, &result, error);
+    status = gm_verify_map(1, &plant, map, 0, POINTS, SEED, &result, error);
     if (status == GM_OK) {
         *o = (outcome){summary.points, 0, result.max_relative[GM_VERIFY_SINGLE],
                        summary.elapsed};

@@ -33,6 +33,7 @@ static gm_reduced_change change_of(const gm_reduced_map *map, const gm_rates *r)
         .w_o = r->of[GM_OUTPUT_W][0],
         .output_tau = r->of[GM_OUTPUT_TAU][0],
         .loss_scale = r->of[GM_LOSS_SCALE][0],
+        .oil_temperature = r->of[GM_OIL_TEMPERATURE][0],
     };
     for (int p = 0; p < map->n_paths; p++) {
         by.w[p] = r->of[GM_PATH_W][p];

@@ -43,10 +43,12 @@ static void hash_settings(gm_sha256 *sum, const gm_reduce_settings *s)
 {
     const double number[] = {s->sweep.speed_step,      s->sweep.torque_step,
                              s->sweep.speed_max,       s->sweep.torque_max,
-                             s->sweep.tolerance.share, s->sweep.tolerance.torque,
-                             s->sweep.oil_temperature};
+                             s->sweep.tolerance.share, s->sweep.tolerance.torque};
     for (size_t i = 0; i < sizeof number / sizeof *number; i++)
         gm_sha256_double(sum, number[i]);
+    gm_sha256_int(sum, s->sweep.oil.n);
+    for (int i = 0; i < s->sweep.oil.n; i++)
+        gm_sha256_double(sum, s->sweep.oil.value[i]);
     gm_sha256_int(sum, s->points);
     gm_sha256_int(sum, s->seed);
     gm_sha256_text(sum, s->bake.interpolation);

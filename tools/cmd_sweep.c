@@ -71,8 +71,8 @@ static gm_status sweep_file(const arguments *a, const gm_gearset_file *file, out
     o->measured = settings.tolerance.share > 0.0 || settings.tolerance.torque > 0.0;
     if (status != GM_OK || !o->measured)
         return status;
-    status = gm_stage_measure(file->plant, &o->sweep, settings.monotone, MEASURED,
-                              MEASURED_SEED, &o->verify, error);
+    status = gm_stage_measure(file, &o->sweep, settings.monotone, MEASURED, MEASURED_SEED,
+                              &o->verify, error);
     if (status == GM_OK)
         gm_stage_warn(&o->sweep, &o->verify);
     return status;
@@ -84,8 +84,8 @@ static gm_status sweep(const arguments *a, int *skipped, gm_error *error)
     outcome o = {.measured = false};
     gm_status status = gm_file_check_output(a->output, a->description, error);
     if (status == GM_OK)
-        status = gm_gearset_file_open_any(a->description, a->sweep.oil_temperature, &file,
-                                          error);
+        status = gm_gearset_file_open_any(a->description, gm_stage_temperature(&a->sweep),
+                                          &file, error);
     if (status != GM_OK)
         return status;
     status = sweep_file(a, &file, &o, error);

@@ -94,11 +94,29 @@ static void print_json(const void *result, gm_json *json)
 
 static const gm_result_form form = {print_text, print_json};
 
+/* A component with an oil axis is compared anywhere on it. */
+static gm_status choose_on_axis(const arguments *a, const gm_fmu_origin *origin,
+                                double *temperature, gm_error *error)
+{
+    const double low = origin->oil[0], high = origin->oil[origin->n_oil - 1];
+    if (a->oil_temperature < low - SAME_TEMPERATURE ||
+        a->oil_temperature > high + SAME_TEMPERATURE)
+        return gm_fail(
+            error, GM_ERR_MODEL,
+            "%s: was made for oil temperatures from %g to %g degC, not %g degC", a->fmu,
+            low - KELVIN, high - KELVIN, a->oil_temperature - KELVIN);
+    *temperature = a->oil_temperature;
+    return GM_OK;
+}
+
 /* The temperature to compare at: the component's, which must be the one that was asked
  * for. A component that does not say is believed. */
-static gm_status choose_temperature(const arguments *a, double made_for,
+static gm_status choose_temperature(const arguments *a, const gm_fmu_origin *origin,
                                     double *temperature, gm_error *error)
 {
+    const double made_for = origin->oil_temperature;
+    if (origin->n_oil > 0 && !isnan(a->oil_temperature))
+        return choose_on_axis(a, origin, temperature, error);
     if (fabs(made_for - a->oil_temperature) > SAME_TEMPERATURE)
         return gm_fail(error, GM_ERR_MODEL,
                        "%s: was made for an oil temperature of %g degC, not %g degC",
@@ -139,7 +157,8 @@ static gm_status compare(const arguments *a, gm_fmu *fmu, const gm_gearset_file 
 {
     gm_status status = gm_measured_read(fmu, file, &c->measured, error);
     if (status == GM_OK && a->steady)
-        status = gm_stage_verify(file->plant, fmu, a->points, a->seed, &c->steady, error);
+        status = gm_stage_verify(file, fmu, !isnan(a->oil_temperature), a->points,
+                                 a->seed, &c->steady, error);
     if (status == GM_OK && a->drive.cycle)
         status = gm_stage_cycle(file, a->fmu, &a->drive, &c->cycle, error);
     if (status == GM_OK && a->drive.trace)
@@ -153,7 +172,7 @@ static gm_status verify_fmu(const arguments *a, gm_fmu *fmu, gm_error *error)
     gm_gearset_file file;
     comparison c = {.asked = a};
     double temperature = (double)NAN;
-    gm_status status = choose_temperature(a, origin.oil_temperature, &temperature, error);
+    gm_status status = choose_temperature(a, &origin, &temperature, error);
     if (status == GM_OK)
         status = gm_gearset_file_open_any(a->description, temperature, &file, error);
     if (status != GM_OK)

@@ -23,7 +23,7 @@ struct gm_fmu_probe {
     gm_fmu *fmu;
     int n_paths;
     path_variables path[GM_MAX_INPUT_PATHS];
-    unsigned fidelity, output_tau, output_w_start, output_loss_torque, loss_power;
+    unsigned fidelity, output_tau, output_w_start, output_loss_torque, loss_power, oil;
 };
 
 static gm_status find(const gm_fmu *fmu, const char *path, const char *variable,
@@ -62,6 +62,8 @@ static gm_status find_output(gm_fmu_probe *probe, gm_error *error)
         status = find(fmu, "", "loss_power", &probe->loss_power, error);
     if (status == GM_OK)
         status = find(fmu, "", "fidelity", &probe->fidelity, error);
+    if (status == GM_OK)
+        status = find(fmu, "", "oil_temperature", &probe->oil, error);
     return status;
 }
 
@@ -124,12 +126,14 @@ static gm_status set_path(gm_fmu_probe *probe, int p, const gm_steady_point *poi
     return status;
 }
 
-static gm_status set_point(gm_fmu_probe *probe, const gm_steady_point *point,
+static gm_status set_point(gm_fmu_probe *probe, double oil, const gm_steady_point *point,
                            double output_torque, gm_error *error)
 {
     gm_status status = gm_fmu_reset(probe->fmu, error);
     if (status == GM_OK)
         status = gm_fmu_set_integer(probe->fmu, probe->fidelity, GM_RIGID, error);
+    if (status == GM_OK)
+        status = gm_fmu_set_real(probe->fmu, probe->oil, oil, error);
     if (status == GM_OK)
         status =
             gm_fmu_set_real(probe->fmu, probe->output_w_start, point->speed[0], error);
@@ -177,11 +181,12 @@ static gm_status read_answer(gm_fmu_probe *probe, const gm_steady_point *point,
     return status;
 }
 
-static gm_status probe_at(void *self, const gm_steady_point *point, double output_torque,
-                          gm_reduced_answer *answer, gm_error *error)
+static gm_status probe_at(void *self, double oil, const gm_steady_point *point,
+                          double output_torque, gm_reduced_answer *answer,
+                          gm_error *error)
 {
     gm_fmu_probe *probe = self;
-    gm_status status = set_point(probe, point, output_torque, error);
+    gm_status status = set_point(probe, oil, point, output_torque, error);
     if (status == GM_OK)
         status = check_gears(probe, point, error);
     return status == GM_OK ? read_answer(probe, point, answer, error) : status;

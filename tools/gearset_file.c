@@ -14,6 +14,7 @@ gm_status gm_gearset_file_open(const char *path, double oil_temperature,
         return gm_fail(error, GM_ERR_FORMAT,
                        "%s: is a rig file; this needs the description of a gearset",
                        path);
+    file->path = path;
     gm_status status = gm_description_read(path, &file->description, error);
     if (status != GM_OK)
         return status;
@@ -34,6 +35,7 @@ gm_status gm_gearset_file_open_any(const char *path, double oil_temperature,
     if (!gm_rig_file_is_one(path))
         return gm_gearset_file_open(path, oil_temperature, file, error);
     memset(file, 0, sizeof *file);
+    file->path = path;
     gm_status status = gm_rig_source_open(path, oil_temperature, &file->rig, error);
     if (status != GM_OK)
         return status;

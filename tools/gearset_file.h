@@ -15,6 +15,7 @@ typedef struct gm_gearset_file {
     gm_plant *plant;
     gm_rig_source *rig;     /* of a rig file; description and gearset are then NULL */
     double oil_temperature; /* K */
+    const char *path;       /* it was read from; the caller's */
 } gm_gearset_file;
 
 /** oil_temperature [K], NAN: the description's. On failure nothing is held. */

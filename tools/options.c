@@ -92,7 +92,9 @@ static bool to_si(const char *kind, const char *text, double *value)
     return false;
 }
 
-static gm_status read_quantity(const parser *p, const gm_option *o, const char *text)
+/* A quantity in the option's range. */
+static gm_status take_quantity(const parser *p, const gm_option *o, const char *text,
+                               double *quantity)
 {
     const unit *u = unit_of_kind(o->unit);
     double value;
@@ -108,7 +110,40 @@ static gm_status read_quantity(const parser *p, const gm_option *o, const char *
     double shown = (value - u->offset) / u->scale;
     if (!(shown >= o->low - slack && shown <= o->high + slack))
         return out_of_range(p, o, text);
-    memcpy(p->arguments + o->offset, &value, sizeof value);
+    *quantity = value;
+    return GM_OK;
+}
+
+static gm_status read_quantity(const parser *p, const gm_option *o, const char *text)
+{
+    double value;
+    gm_status status = take_quantity(p, o, text, &value);
+    if (status == GM_OK)
+        memcpy(p->arguments + o->offset, &value, sizeof value);
+    return status;
+}
+
+static gm_status read_list(const parser *p, const gm_option *o, const char *text)
+{
+    gm_option_list list = {0, {0.0}};
+    for (const char *from = text; from; from = strchr(from, ',')) {
+        char part[64];
+        from += from != text; /* the comma */
+        size_t n = strcspn(from, ",");
+        if (list.n == GM_OPTION_MOST)
+            return gm_fail(p->error, GM_ERR_ARGUMENT, "--%s takes %d values, not more",
+                           o->name, GM_OPTION_MOST);
+        (void)snprintf(part, sizeof part, "%.*s", (int)(n < 63 ? n : 63), from);
+        gm_status status = take_quantity(p, o, part, &list.value[list.n]);
+        if (status != GM_OK)
+            return status;
+        if (list.n > 0 && !(list.value[list.n] > list.value[list.n - 1]))
+            return gm_fail(p->error, GM_ERR_ARGUMENT,
+                           "--%s needs values that increase; '%s' does not", o->name,
+                           part);
+        list.n++;
+    }
+    memcpy(p->arguments + o->offset, &list, sizeof list);
     return GM_OK;
 }
 
@@ -166,6 +201,8 @@ static gm_status read_value(const parser *p, const gm_option *o, const char *tex
         return read_integer(p, o, text);
     case GM_OPTION_QUANTITY:
         return read_quantity(p, o, text);
+    case GM_OPTION_LIST:
+        return read_list(p, o, text);
     case GM_OPTION_ERROR:
         return read_error(p, o, text);
     case GM_OPTION_TEXT:

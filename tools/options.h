@@ -20,6 +20,7 @@ typedef enum gm_option_kind {
     GM_OPTION_TEXT,     /* const char *: points into argv; NULL when not given */
     GM_OPTION_INTEGER,  /* int */
     GM_OPTION_QUANTITY, /* double, SI; NAN when not given */
+    GM_OPTION_LIST,     /* gm_option_list; n 0 when not given */
     GM_OPTION_ERROR,    /* gm_option_error; both zero when not given */
     GM_OPTION_OPERAND   /* const char *: an argument without a name, in table order */
 } gm_option_kind;
@@ -29,6 +30,14 @@ typedef struct gm_option_error {
     double share;  /* 0.5% is 0.005 */
     double torque; /* N.m */
 } gm_option_error;
+
+#define GM_OPTION_MOST 16
+
+/** Quantities in ascending order, with commas between them; SI. */
+typedef struct gm_option_list {
+    int n;
+    double value[GM_OPTION_MOST];
+} gm_option_list;
 
 typedef struct gm_option {
     gm_option_kind kind;
@@ -53,7 +62,7 @@ typedef struct gm_command {
     int (*run)(const void *arguments); /* returns the exit code */
 } gm_command;
 
-#define GM_ARGUMENTS_SIZE 256
+#define GM_ARGUMENTS_SIZE 512
 
 typedef enum gm_parse_outcome {
     GM_PARSE_RUN,
@@ -69,6 +78,9 @@ typedef enum gm_parse_outcome {
      .offset = offsetof(T, description), .help = "the description of the gearset"}
 #define GM_OIL_OPTION(OFFSET, HELP)                                                      \
     {.kind = GM_OPTION_QUANTITY, .name = "oil-temperature", .value = "TEMPERATURE",      \
+     .unit = "degC", .low = -50, .high = 200, .offset = OFFSET, .help = HELP}
+#define GM_OIL_LIST_OPTION(OFFSET, HELP)                                                 \
+    {.kind = GM_OPTION_LIST, .name = "oil-temperature", .value = "TEMPERATURE,...",      \
      .unit = "degC", .low = -50, .high = 200, .offset = OFFSET, .help = HELP}
 #define GM_COMPILER_OPTION(place)                                                        \
     {.kind = GM_OPTION_TEXT, .name = "compiler", .value = "COMMAND",                     \

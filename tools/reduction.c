@@ -67,8 +67,7 @@ static gm_status verify(const gm_reduce_settings *a, gm_reduction *r, const char
     if (status == GM_OK)
         status = gm_measured_read(fmu, &r->file, &measured, error);
     if (status == GM_OK)
-        status =
-            gm_stage_verify(r->file.plant, fmu, a->points, a->seed, &r->verify, error);
+        status = gm_stage_verify(&r->file, fmu, 0, a->points, a->seed, &r->verify, error);
     gm_fmu_close(fmu);
     if (status == GM_OK && a->cycle) {
         const gm_cycle_settings drive = drive_of(a);
@@ -112,7 +111,7 @@ gm_status gm_reduce(const gm_reduce_settings *a, gm_reduction *r, gm_error *erro
     if (status == GM_OK)
         status = gm_file_own_name(a->output, name, error);
     if (status == GM_OK)
-        status = gm_gearset_file_open_any(a->description, a->sweep.oil_temperature,
+        status = gm_gearset_file_open_any(a->description, gm_stage_temperature(&a->sweep),
                                           &r->file, error);
     if (status == GM_OK)
         status = gm_stage_sweep(&r->file, &settings, a->map, &r->sweep, error);

@@ -4,6 +4,7 @@
 #include "base/alloc.h"
 
 #include <math.h>
+#include <string.h>
 
 static const gm_rig *choose_rig(gm_rig_source *s)
 {
@@ -52,6 +53,13 @@ gm_status gm_rig_source_open(const char *path, double oil_temperature,
     else
         gm_rig_source_close(s);
     return status;
+}
+
+/* Plug-ins always get it. */
+bool gm_rig_source_takes_oil(const gm_rig_source *source)
+{
+    const char *ending = strrchr(source->file->model, '.');
+    return source->file->oil.variable || !ending || strcmp(ending, ".fmu") != 0;
 }
 
 void gm_rig_source_close(gm_rig_source *source)

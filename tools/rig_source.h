@@ -9,6 +9,8 @@
 #include "solve/gm_continuous_rig.h"
 #include "sweep/gm_rig_plant.h"
 
+#include <stdbool.h>
+
 typedef struct gm_rig_source {
     gm_rig_file *file;
     gm_foreign *foreign;
@@ -21,6 +23,8 @@ typedef struct gm_rig_source {
 /** oil_temperature [K]; NAN: the rig file's. */
 GM_NODISCARD gm_status gm_rig_source_open(const char *path, double oil_temperature,
                                           gm_rig_source **source, gm_error *error);
+/** Whether the model takes an oil temperature. */
+bool gm_rig_source_takes_oil(const gm_rig_source *source);
 void gm_rig_source_close(gm_rig_source *source);
 
 #endif

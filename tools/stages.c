@@ -7,6 +7,7 @@
 #include "files.h"
 #include "fmu_probe.h"
 #include "keep_description.h"
+#include "oil_plants.h"
 #include "options.h"
 #include "progress.h"
 
@@ -63,10 +64,51 @@ static gm_status check_steps(const gm_plant *plant, const gm_sweep_settings *s,
     return status;
 }
 
+double gm_stage_temperature(const gm_sweep_settings *settings)
+{
+    return settings->oil.n == 1 ? settings->oil.value[0] : (double)NAN;
+}
+
+/* The temperatures of the axis, and the middles between them. */
+static gm_status open_oil(const gm_gearset_file *file, const gm_option_list *oil,
+                          gm_oil_plants *plants, gm_error *error)
+{
+    double temperature[2 * GM_OPTION_MOST];
+    const int n = oil->n;
+    if (n < 2)
+        return GM_OK;
+    for (int k = 0; k < n; k++)
+        temperature[k] = oil->value[k];
+    for (int k = 0; k + 1 < n; k++)
+        temperature[n + k] = 0.5 * (oil->value[k] + oil->value[k + 1]);
+    return gm_oil_plants_open(file, 2 * n - 1, temperature, plants, error);
+}
+
+static gm_status run_sweep(const gm_gearset_file *file, gm_sweep_options *options,
+                           const gm_option_list *oil, const char *path,
+                           gm_sweep_stage *stage, gm_error *error)
+{
+    gm_oil_plants plants = {0};
+    gm_progress progress;
+    gm_progress_begin(&progress, "sweep", file->plant->info.name);
+    gm_status status = open_oil(file, oil, &plants, error);
+    if (plants.n > 0) {
+        options->n_oil = oil->n;
+        options->at_oil = plants.plant;
+        options->between_oil = plants.plant + oil->n;
+    }
+    if (status == GM_OK)
+        status = gm_sweep_run(file->plant, options, path, gm_progress_report, &progress,
+                              &stage->map, &stage->summary, error);
+    gm_progress_end(&progress);
+    gm_oil_plants_close(&plants);
+    return status;
+}
+
 gm_status gm_stage_sweep(const gm_gearset_file *file, const gm_sweep_settings *settings,
                          const char *path, gm_sweep_stage *stage, gm_error *error)
 {
-    const gm_sweep_options options = {
+    gm_sweep_options options = {
         .speed_step = or_zero(settings->speed_step),
         .torque_step = or_zero(settings->torque_step),
         .speed_max = or_zero(settings->speed_max),
@@ -76,15 +118,11 @@ gm_status gm_stage_sweep(const gm_gearset_file *file, const gm_sweep_settings *s
         .monotone = settings->monotone,
         .threads = settings->threads == GM_OPTION_UNSET ? 0 : settings->threads,
     };
-    gm_progress progress;
     memset(stage, 0, sizeof *stage);
     gm_status status = check_steps(file->plant, settings, error);
     if (status != GM_OK)
         return status;
-    gm_progress_begin(&progress, "sweep", file->plant->info.name);
-    status = gm_sweep_run(file->plant, &options, path, gm_progress_report, &progress,
-                          &stage->map, &stage->summary, error);
-    gm_progress_end(&progress);
+    status = run_sweep(file, &options, &settings->oil, path, stage, error);
     stage->path = path;
     stage->tolerance = settings->tolerance;
     if (status == GM_OK && path && file->description)
@@ -159,21 +197,47 @@ gm_status gm_stage_bake(const gm_map *map, const gm_results *results,
     return gm_fail(error, GM_ERR_INTERRUPTED, "interrupted; no component was written");
 }
 
-gm_status gm_stage_verify(const gm_plant *plant, gm_fmu *fmu, int points, int seed,
-                          gm_verify_stage *stage, gm_error *error)
+static gm_status verify_probe(const gm_gearset_file *file, gm_fmu_probe *probe,
+                              int points, int seed, gm_verify_stage *stage,
+                              gm_error *error)
 {
+    const gm_reduced_probe interface = gm_fmu_probe_interface(probe);
+    const gm_plant *single = file->plant;
+    gm_oil_plants held_out = {.n = 0};
+    gm_progress progress;
+    gm_progress_begin(&progress, "verify", file->plant->info.name);
+    gm_status status = GM_OK;
+    if (stage->n_oil > 0)
+        status = gm_oil_plants_hold_out(file, stage->n_oil, stage->oil, seed, &held_out,
+                                        error);
+    if (status == GM_OK)
+        status = gm_verify_plants(held_out.n > 0 ? held_out.n : 1,
+                                  held_out.n > 0 ? held_out.plant : &single, &interface,
+                                  points, (uint64_t)seed, &stage->result, error);
+    gm_progress_end(&progress);
+    gm_oil_plants_close(&held_out);
+    return status;
+}
+
+static void take_axis(int n, const double *oil, gm_verify_stage *stage)
+{
+    stage->n_oil = n;
+    for (int k = 0; k < n; k++)
+        stage->oil[k] = oil[k];
+}
+
+gm_status gm_stage_verify(const gm_gearset_file *file, gm_fmu *fmu, int alone, int points,
+                          int seed, gm_verify_stage *stage, gm_error *error)
+{
+    const gm_fmu_origin origin = gm_fmu_read_origin(fmu);
     gm_fmu_probe *probe = NULL;
     double start = gm_stage_clock();
     memset(stage, 0, sizeof *stage);
-    gm_status status = gm_fmu_probe_create(fmu, plant, &probe, error);
+    take_axis(alone ? 0 : origin.n_oil, origin.oil, stage);
+    gm_status status = gm_fmu_probe_create(fmu, file->plant, &probe, error);
     if (status != GM_OK)
         return status;
-    const gm_reduced_probe interface = gm_fmu_probe_interface(probe);
-    gm_progress progress;
-    gm_progress_begin(&progress, "verify", plant->info.name);
-    status = gm_verify_steady(plant, &interface, points, (uint64_t)seed, &stage->result,
-                              error);
-    gm_progress_end(&progress);
+    status = verify_probe(file, probe, points, seed, stage, error);
     gm_fmu_probe_destroy(probe);
     stage->elapsed = gm_stage_clock() - start;
     if (gm_progress_interrupted())
@@ -254,14 +318,31 @@ gm_status gm_stage_keep(const gm_verify_stage *stage, const gm_map *map,
     return status;
 }
 
-gm_status gm_stage_measure(const gm_plant *plant, const gm_sweep_stage *sweep,
+static gm_status measure(const gm_gearset_file *file, const gm_map *map, int monotone,
+                         int points, int seed, gm_verify_stage *stage, gm_error *error)
+{
+    const gm_plant *single = file->plant;
+    gm_oil_plants held_out = {.n = 0};
+    gm_status status = GM_OK;
+    if (map->n_oil > 0)
+        status =
+            gm_oil_plants_hold_out(file, map->n_oil, map->oil, seed, &held_out, error);
+    if (status == GM_OK)
+        status = gm_verify_map(held_out.n > 0 ? held_out.n : 1,
+                               held_out.n > 0 ? held_out.plant : &single, map, monotone,
+                               points, (uint64_t)seed, &stage->result, error);
+    gm_oil_plants_close(&held_out);
+    return status;
+}
+
+gm_status gm_stage_measure(const gm_gearset_file *file, const gm_sweep_stage *sweep,
                            int monotone, int points, int seed, gm_verify_stage *stage,
                            gm_error *error)
 {
     double start = gm_stage_clock();
     memset(stage, 0, sizeof *stage);
-    gm_status status = gm_verify_map(plant, sweep->map, monotone, points, (uint64_t)seed,
-                                     &stage->result, error);
+    take_axis(sweep->map->n_oil, sweep->map->oil, stage);
+    gm_status status = measure(file, sweep->map, monotone, points, seed, stage, error);
     if (status != GM_OK)
         return status;
     stage->elapsed = gm_stage_clock() - start;

@@ -21,7 +21,8 @@ typedef struct gm_sweep_settings {
     double speed_max, torque_max;   /* rad/s, N.m */
     gm_option_error tolerance;      /* both zero: not given */
     int monotone; /* set by the command: how the map will be read, for the tolerance */
-    double oil_temperature; /* K */
+    gm_option_list oil; /* K; one: the temperature, more: an oil axis; none: the
+                           description's */
     int threads;
 } gm_sweep_settings;
 
@@ -40,6 +41,8 @@ typedef struct gm_bake_stage {
 typedef struct gm_verify_stage {
     gm_verify_result result; /* owned */
     double elapsed;          /* s */
+    int n_oil;               /* an oil axis, K */
+    double oil[GM_MAP_MAX_OIL];
 } gm_verify_stage;
 
 /** Sweep with a progress bar; path NULL: the map stays in memory. When a signal stopped
@@ -71,14 +74,19 @@ GM_NODISCARD gm_status gm_stage_bake(const gm_map *map, const gm_results *result
 GM_NODISCARD gm_status gm_stage_guid(const gm_map *map, const gm_bake_settings *settings,
                                      char guid[64], gm_error *error);
 
-/** Compare the FMU with the plant. */
-GM_NODISCARD gm_status gm_stage_verify(const gm_plant *plant, gm_fmu *fmu, int points,
-                                       int seed, gm_verify_stage *stage, gm_error *error);
+/** Oil temperature of the description to begin with [K]; NAN: its own. */
+double gm_stage_temperature(const gm_sweep_settings *settings);
+
+/** Compare the FMU with the gearset; one with an oil axis at random temperatures between
+ *  its ends, unless alone is 1. */
+GM_NODISCARD gm_status gm_stage_verify(const gm_gearset_file *file, gm_fmu *fmu,
+                                       int alone, int points, int seed,
+                                       gm_verify_stage *stage, gm_error *error);
 void gm_stage_verify_clear(gm_verify_stage *stage);
 
 /** Compare the map of a sweep with the plant, by the reduced gearset in this program, and
  *  write the errors into the map's file. */
-GM_NODISCARD gm_status gm_stage_measure(const gm_plant *plant,
+GM_NODISCARD gm_status gm_stage_measure(const gm_gearset_file *file,
                                         const gm_sweep_stage *sweep, int monotone,
                                         int points, int seed, gm_verify_stage *stage,
                                         gm_error *error);
@@ -157,8 +165,11 @@ double gm_stage_clock(void);
     {.kind = GM_OPTION_INTEGER, .name = "threads", .value = "N", .low = 1, .high = 1024, \
      .offset = GM_SWEEP_OPTION(type, threads),                                           \
      .help = "threads to compute with; default: one per core"},                          \
-    GM_OIL_OPTION(GM_SWEEP_OPTION(type, oil_temperature),                                \
-                  "oil temperature; default: the description's")
+    GM_OIL_LIST_OPTION(                                                                  \
+        GM_SWEEP_OPTION(type, oil),                                                      \
+        "oil temperature; several, such as -10degC,20degC,80degC: the component gets an " \
+        "oil axis, between which its losses follow the input oil_temperature; default: " \
+        "the description's")
 // clang-format on
 
 #endif

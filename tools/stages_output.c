@@ -75,6 +75,8 @@ static void case_gears(const gm_verify_case *c, gm_json *json)
     gm_json_end(json);
 }
 
+#define KELVIN 273.15
+
 static void case_json(const gm_verify_case *c, gm_json *json)
 {
     double scale = c->largest_loss > 0.0 ? 1.0 / c->largest_loss : 0.0;
@@ -91,6 +93,7 @@ static void case_json(const gm_verify_case *c, gm_json *json)
     gm_json_object(json, "worst");
     gm_json_number(json, "speed_rpm", c->worst_speed * RPM_PER_RAD_S);
     gm_json_number(json, "torque_Nm", c->worst_torque);
+    gm_json_number(json, "oil_degC", c->worst_oil - KELVIN);
     gm_json_end(json);
     gm_json_end(json);
 }

@@ -45,9 +45,11 @@ static gm_status set_config(gm_c_folder *f, gm_error *error)
                         "#define GM_NODES_ARE_INT16 %d /* 1: tables hold int16_t and a "
                         "scale */\n"
                         "#define GM_CURVED %d          /* 0: no table is monotone, all "
-                        "are linear */\n\n#endif\n",
+                        "are linear */\n"
+                        "#define GM_OIL_AXIS %d        /* 0: tables hold for one oil "
+                        "temperature only */\n\n#endif\n",
                    GM_VERSION, o->is_float, o->is_int16,
-                   o->interpolation == GM_INTERPOLATION_MONOTONE);
+                   o->interpolation == GM_INTERPOLATION_MONOTONE, f->map->n_oil > 0);
     return file->content.failed ? gm_fail(error, GM_ERR_MEMORY, "no memory for a text")
                                 : GM_OK;
 }

@@ -106,7 +106,11 @@ static void gears(const gm_c_folder *f, gm_buffer *page)
     gm_buffer_text(page, " rpm) and input torques to ");
     number(page, map->torque_max, 4);
     gm_buffer_text(page, " N.m in both directions, oil at ");
-    number(page, map->oil_temperature, 5);
+    number(page, map->n_oil > 0 ? map->oil[0] : map->oil_temperature, 5);
+    if (map->n_oil > 0) {
+        gm_buffer_text(page, " to ");
+        number(page, map->oil[map->n_oil - 1], 5);
+    }
     gm_buffer_text(page, " K. Numbers are accepted to 1e%d in magnitude.\n\n",
                    f->options->is_float ? 18 : 108);
     gm_buffer_text(

@@ -112,7 +112,7 @@ static long struct_bytes(const gm_c_folder *f)
     for (int p = 0; p < m->n_paths; p++)
         sum += m->path[p].n_gears * (4 + 6 * real + 2 * table2 + 2 * table1) +
                m->path[p].n_lines * (real + 2 * table1) + 8 * table2 + 2 * real + 16;
-    return sum + table1 + 2 * real + 12;
+    return sum + table1 + 2 * real + 24; /* 12 of them the oil axis */
 }
 
 static long count_nodes(const gm_table_text *w)

@@ -90,6 +90,18 @@ static void gear_table(gm_buffer *page, const gm_map *map)
     gm_buffer_text(page, "; both in neutral.</p>\n");
 }
 
+static void oil_range(gm_buffer *page, const gm_map *map)
+{
+    if (map->n_oil == 0) {
+        gm_page_number(page, "and an oil temperature of ", map->oil_temperature - KELVIN,
+                       4, " °C. ");
+        return;
+    }
+    gm_page_number(page, "and oil temperatures from ", map->oil[0] - KELVIN, 4, "");
+    gm_page_number(page, " to ", map->oil[map->n_oil - 1] - KELVIN, 4, " °C, ");
+    gm_buffer_text(page, "measured at %d of them. ", map->n_oil);
+}
+
 static void range(gm_buffer *page, const gm_document *d)
 {
     const gm_map *map = d->map;
@@ -99,8 +111,7 @@ static void range(gm_buffer *page, const gm_document *d)
     gm_page_number(page, " (", map->speed_max, 5, " rad/s) in both directions, input ");
     gm_page_number(page, "torques up to ", map->torque_max, 5,
                    " N·m driving and driven, ");
-    gm_page_number(page, "and an oil temperature of ", map->oil_temperature - KELVIN, 4,
-                   " °C. ");
+    oil_range(page, map);
     gm_buffer_text(page, "Between their nodes they are read %s. ",
                    d->monotone ? "by monotone cubics, whose gradients are continuous and "
                                  "which never overshoot their nodes (where both paths "

@@ -5,6 +5,8 @@
  */
 #include "bake/model_description.h"
 
+#include "bake/buffer.h"
+
 #include "bake/description_parts.h"
 #include "bake/model_structure.h"
 
@@ -115,6 +117,21 @@ void gm_describe_experiment(xml *x)
     gm_xml_end(x);
 }
 
+/* Temperatures of the map's slices, K. */
+static void write_oil_axis(xml *x)
+{
+    gm_buffer text = {0};
+    if (x->map->n_oil == 0)
+        return;
+    for (int k = 0; k < x->map->n_oil; k++) {
+        gm_buffer_text(&text, "%s", k > 0 ? " " : "");
+        gm_buffer_number(&text, x->map->oil[k]);
+    }
+    x->failed |= text.failed;
+    gm_xml_text(x, "oilTemperatures", text.data ? text.data : "");
+    gm_buffer_clear(&text);
+}
+
 static void write_gears(xml *x, int p)
 {
     const gm_map_path *path = &x->map->paths[p];
@@ -141,6 +158,7 @@ void gm_describe_origin(xml *x)
     gm_xml_number(x, "oilTemperature", map->oil_temperature); /* K */
     gm_xml_number(x, "speedMax", map->speed_max);             /* rad/s */
     gm_xml_number(x, "torqueMax", map->torque_max);           /* N.m */
+    write_oil_axis(x);
     for (int p = 0; p < map->n_paths; p++)
         write_gears(x, p);
     gm_xml_end(x);

@@ -17,6 +17,9 @@ static void write_unknown(xml *x, scalar unknown, dependency_rule rule)
     gm_buffer on = {0}, kind = {0};
     for (int j = 0; j < x->n; j++) {
         dependency d = rule(unknown, x->all[j]);
+        if (x->map->n_oil > 0 && x->all[j].id == VARIABLE_OIL_TEMPERATURE &&
+            gm_bake_follows_oil(unknown))
+            d = DEPENDENCY_DEPENDENT;
         if (d == DEPENDENCY_NONE)
             continue;
         gm_buffer_text(&on, "%s%d", on.size ? " " : "", j + 1);

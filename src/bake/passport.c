@@ -57,14 +57,24 @@ static json_t *model_of(const gm_map *map)
                      text_or_null(map->input_sha256));
 }
 
+/* Empty without an oil axis. */
+static json_t *oil_axis_of(const gm_map *map)
+{
+    json_t *made = json_array();
+    for (int k = 0; k < map->n_oil; k++)
+        (void)json_array_append_new(made, json_real(map->oil[k] - KELVIN));
+    return made;
+}
+
 static json_t *map_of(const gm_map *map)
 {
-    return json_pack("{s:o, s:o, s:o, s:f, s:f, s:f}", "content_hash",
+    return json_pack("{s:o, s:o, s:o, s:f, s:f, s:f, s:o}", "content_hash",
                      text_or_null(map->content_hash), "tool_version",
                      gm_document_text(map->tool_version), "options",
                      gm_document_text(map->options), "speed_max_rpm",
                      map->speed_max * RPM, "torque_max_Nm", map->torque_max,
-                     "oil_temperature_degC", map->oil_temperature - KELVIN);
+                     "oil_temperature_degC", map->oil_temperature - KELVIN,
+                     "oil_temperatures_degC", oil_axis_of(map));
 }
 
 static json_t *fmu_of(const gm_passport_component *c)

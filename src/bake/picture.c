@@ -10,6 +10,7 @@
 #include "bake/png.h"
 #include "base/alloc.h"
 
+#include <math.h>
 #include <string.h>
 
 enum {
@@ -41,6 +42,17 @@ static const gm_configuration *configuration_of(const gm_reduced_map *map, int p
     return found;
 }
 
+/* The one nearest to the usual oil temperature. */
+static int usual_slice(const gm_reduced_map *map)
+{
+    int slice = 0;
+    for (int k = 1; k < map->oil.n; k++)
+        if (fabs(map->oil.temperature[k] - map->oil_temperature) <
+            fabs(map->oil.temperature[slice] - map->oil_temperature))
+            slice = k;
+    return slice;
+}
+
 double gm_picture_efficiency(const gm_reduced_map *map, int p, int g, double w,
                              double tau)
 {
@@ -49,11 +61,15 @@ double gm_picture_efficiency(const gm_reduced_map *map, int p, int g, double w,
     double ratio = gear->ratio < 0 ? -gear->ratio : gear->ratio;
     /* the output turns forward: with a negative ratio the path turns backward */
     int direction = gear->ratio < 0 ? GM_BACKWARD : GM_FORWARD;
+    const int slice = usual_slice(map);
+    gm_table2 loads = gear->load_loss[direction];
+    gm_table1 drags = c->parasitic[GM_FORWARD];
     gm_cell1 cell1 = {0};
     gm_cell2 cell2 = {0};
-    double load = gm_table2_at(&gear->load_loss[direction], 1, &cell2, w, tau).value;
-    double parasitic =
-        gm_table1_at(&c->parasitic[GM_FORWARD], 1, &cell1, w / ratio).value;
+    loads.value += slice * loads.x.n * loads.y.n;
+    drags.value += slice * drags.x.n;
+    double load = gm_table2_at(&loads, 1, &cell2, w, tau).value;
+    double parasitic = gm_table1_at(&drags, 1, &cell1, w / ratio).value;
     double efficiency = 1 - (load + parasitic / ratio) / tau;
     return efficiency > 0 ? efficiency : 0;
 }

@@ -174,7 +174,11 @@ static void write_axis(gm_table_text *w, const char *name, char letter,
 static void write_table(gm_table_text *w, const char *name, const meaning *m, int n_axes,
                         const gm_axis *const *axis, const double *value)
 {
-    gm_table_array a = {.data = value, .rows = 1, .is_node = true};
+    const int slices = gm_reduced_slices(w->reduced);
+    gm_table_array a = {.data = value, .rows = slices, .is_node = true};
+    char shape[32] = "";
+    if (slices > 1)
+        snprintf(shape, sizeof shape, "[%d]", slices);
     for (int i = 0; i < n_axes; i++) {
         write_axis(w, name, "xyz"[i], m -> axis[i], axis[i], &a);
         a.rows *= i + 1 < n_axes ? axis[i]->n : 1;
@@ -182,9 +186,10 @@ static void write_table(gm_table_text *w, const char *name, const meaning *m, in
     a.n = axis[n_axes - 1]->n;
     snprintf(a.name, sizeof a.name, "%s", name);
     if (n_axes == 1)
-        snprintf(a.comment, sizeof a.comment, "%s, [%d]", m->value, a.n);
+        snprintf(a.comment, sizeof a.comment, "%s, %s[%d]", m->value, shape, a.n);
     else
-        snprintf(a.comment, sizeof a.comment, "%s, [%d][%d]", m->value, a.rows, a.n);
+        snprintf(a.comment, sizeof a.comment, "%s, %s[%d][%d]", m->value, shape,
+                 a.rows / slices, a.n);
     write_array(w, &a);
 }
 
@@ -266,8 +271,24 @@ static void configuration_data(gm_table_text *w)
     }
 }
 
+static void oil_data(gm_table_text *w)
+{
+    const gm_oil_axis *oil = &w->reduced->oil;
+    if (oil->n < 2)
+        return;
+    gm_table_array a = {.data = oil->temperature, .rows = 1, .n = oil->n};
+    snprintf(a.name, sizeof a.name, "oil_temperature");
+    snprintf(a.comment, sizeof a.comment, "oil temperature of each slice [K]");
+    write_array(w, &a);
+    gm_table_array b = {.data = oil->bend, .rows = 1, .n = oil->n - 1};
+    snprintf(b.name, sizeof b.name, "oil_bend");
+    snprintf(b.comment, sizeof b.comment, "bend between slices [1]");
+    write_array(w, &b);
+}
+
 void gm_table_text_arrays(gm_table_text *w)
 {
+    oil_data(w);
     for (int p = 0; p < w->map->n_paths; p++) {
         gear_data(w, p);
         drag_data(w, p);

@@ -16,9 +16,11 @@ static void write_axis(const gm_table_text *w, char letter, const gm_axis *axis)
 }
 
 /* What stands in a table's struct behind its axes. */
-static void write_value(const gm_table_text *w, const double *value, int n, int monotone)
+static void write_value(const gm_table_text *w, const double *value, int nodes,
+                        int monotone)
 {
     char name[96];
+    const int n = gm_reduced_slices(w->reduced) * nodes;
     const gm_table_array *a = gm_table_text_find(w, value, n, true);
     gm_buffer_text(w->text, ".value = %s", gm_table_text_name(w, value, n, true, name));
     if (w->style.is_int16 && a) {
@@ -190,6 +192,18 @@ static void path_struct(const gm_table_text *w, int p)
     gm_buffer_text(w->text, "        },\n");
 }
 
+static void oil_struct(const gm_table_text *w)
+{
+    const gm_oil_axis *oil = &w->reduced->oil;
+    char name[96];
+    if (oil->n < 2)
+        return;
+    gm_buffer_text(w->text, "    .oil = {.n = %d, .temperature = %s, ", oil->n,
+                   gm_table_text_name(w, oil->temperature, oil->n, false, name));
+    gm_buffer_text(w->text, ".bend = %s},\n",
+                   gm_table_text_name(w, oil->bend, oil->n - 1, false, name));
+}
+
 static void map_struct(const gm_table_text *w, const char *keyword)
 {
     gm_buffer_text(w->text,
@@ -205,7 +219,9 @@ static void map_struct(const gm_table_text *w, const char *keyword)
     struct1(w, &w->reduced->coupling);
     gm_buffer_text(w->text, ",\n    .inertia_output = ");
     number(w, w->reduced->inertia_output);
-    gm_buffer_text(w->text, ", /* kg.m2 */\n    .oil_temperature = ");
+    gm_buffer_text(w->text, ", /* kg.m2 */\n");
+    oil_struct(w);
+    gm_buffer_text(w->text, "    .oil_temperature = ");
     number(w, w->reduced->oil_temperature);
     gm_buffer_text(w->text, ", /* K */\n};\n");
 }

@@ -29,62 +29,66 @@ static double largest(const double *value, int n)
     return most;
 }
 
-static double largest1(const gm_table1 *t)
+static double largest1(int slices, const gm_table1 *t)
 {
-    return largest(t->value, t->x.n);
+    return largest(t->value, slices * t->x.n);
 }
 
-static double largest2(const gm_table2 *t)
+static double largest2(int slices, const gm_table2 *t)
 {
-    return largest(t->value, t->x.n * t->y.n);
+    return largest(t->value, slices * t->x.n * t->y.n);
 }
 
-static double largest3(const gm_table3 *t)
+static double largest3(int slices, const gm_table3 *t)
 {
-    return largest(t->value, t->x.n * t->y.n * t->z.n);
+    return largest(t->value, slices * t->x.n * t->y.n * t->z.n);
 }
 
-static double load_of(const gm_gear *gear)
+static double load_of(int slices, const gm_gear *gear)
 {
-    return fmax(largest2(&gear->load_loss[0]), largest2(&gear->load_loss[1]));
+    return fmax(largest2(slices, &gear->load_loss[0]),
+                largest2(slices, &gear->load_loss[1]));
 }
 
 /* At the output, in a configuration and direction: P, the loads, X. */
 static double output_loss(const gm_reduced_map *map, const gm_configuration *c, int dir)
 {
-    double sum = largest1(&c->parasitic[dir]) + largest3(&c->both_loaded[dir]);
+    const int slices = gm_reduced_slices(map);
+    double sum =
+        largest1(slices, &c->parasitic[dir]) + largest3(slices, &c->both_loaded[dir]);
     for (int p = 0; p < map->n_paths; p++)
         if (c->gear[p] >= 0) {
             const gm_gear *gear = &map->path[p].gears[c->gear[p]];
-            sum += fabs(gear->ratio) * load_of(gear);
+            sum += fabs(gear->ratio) * load_of(slices, gear);
         }
     return sum;
 }
 
 /* Drag of a neutral path: smooth part and jumps. */
-static double drag_of(const gm_path *path)
+static double drag_of(int slices, const gm_path *path)
 {
     double most = 0.0, jumps = 0.0;
     for (int i = 0; i < 4; i++)
-        most = fmax(most, largest2(&path->drag[i / 2][i % 2]));
+        most = fmax(most, largest2(slices, &path->drag[i / 2][i % 2]));
     for (int l = 0; l < path->n_lines; l++)
-        jumps +=
-            fmax(largest1(&path->lines[l].jump[0]), largest1(&path->lines[l].jump[1]));
+        jumps += fmax(largest1(slices, &path->lines[l].jump[0]),
+                      largest1(slices, &path->lines[l].jump[1]));
     return most + jumps / 2.0;
 }
 
 /* Largest parasitic loss while path p is in neutral: R stands beside it. */
 static double beside_reaction(const gm_reduced_map *map, int p)
 {
+    const int slices = gm_reduced_slices(map);
     double most = 0.0;
     for (int i = 0; i < map->n_configurations; i++) {
         const gm_configuration *c = &map->configurations[i];
         if (c->gear[p] < 0)
-            most =
-                fmax(most, fmax(largest1(&c->parasitic[0]), largest1(&c->parasitic[1])));
+            most = fmax(most, fmax(largest1(slices, &c->parasitic[0]),
+                                   largest1(slices, &c->parasitic[1])));
     }
     for (int i = 0; i < 4; i++)
-        most = fmax(most, largest2(&map->path[p].reaction[i / 2][i % 2]));
+        most = fmax(most, largest2(slices, &map->path[p].reaction[i / 2][i % 2]));
     return most;
 }
 
@@ -121,6 +125,7 @@ static void thin_table(gm_thin *thin, int kind, double reference, int n_axes,
         g->n[a] = a < n_axes ? axis[a]->n : 1;
         g->x[a] = a < n_axes ? axis[a]->x : NULL;
     }
+    g->slices = gm_reduced_slices(&thin->map);
     g->value = *value;
     if (!gm_grid_thin(g, limit, thin->stored)) {
         thin->failed = true;
@@ -155,7 +160,8 @@ static void thin_gears(gm_thin *thin, const gm_path *from, gm_gear *gears)
 {
     for (int g = 0; g < from->n_gears; g++)
         for (int d = 0; d < 2; d++) {
-            const double reference = load_of(&from->gears[g]);
+            const double reference =
+                load_of(gm_reduced_slices(&thin->map), &from->gears[g]);
             thin2(thin, GM_LOAD_LOSS, reference, &gears[g].load_loss[d]);
             thin1(thin, GM_THIN_PIN, reference, &gears[g].pin[d]);
         }
@@ -165,7 +171,8 @@ static void thin_path(gm_thin *thin, const gm_reduced_map *map, int p)
 {
     const gm_path *from = &map->path[p];
     gm_path *path = &thin->map.path[p];
-    const double drag = drag_of(from), beside = beside_reaction(map, p);
+    const double drag = drag_of(gm_reduced_slices(map), from),
+                 beside = beside_reaction(map, p);
     thin_gears(thin, from, thin->gears[p]);
     for (int i = 0; i < 4; i++) {
         thin2(thin, GM_DRAG, drag, &path->drag[i / 2][i % 2]);
@@ -182,7 +189,9 @@ static void thin_configurations(gm_thin *thin, const gm_reduced_map *map)
         const gm_configuration *from = &map->configurations[i];
         gm_configuration *c = &thin->configurations[i];
         for (int d = 0; d < 2; d++) {
-            thin1(thin, GM_PARASITIC, largest1(&from->parasitic[d]), &c->parasitic[d]);
+            thin1(thin, GM_PARASITIC,
+                  largest1(gm_reduced_slices(map), &from->parasitic[d]),
+                  &c->parasitic[d]);
             thin3(thin, GM_BOTH_LOADED, output_loss(map, from, d), &c->both_loaded[d]);
         }
     }
@@ -228,7 +237,8 @@ gm_status gm_thin_create(const gm_reduced_map *map, double tolerance,
         thin_path(t, map, p);
     if (!t->failed)
         thin_configurations(t, map);
-    thin1(t, GM_COUPLING, largest1(&map->coupling), &t->map.coupling);
+    thin1(t, GM_COUPLING, largest1(gm_reduced_slices(map), &map->coupling),
+          &t->map.coupling);
     if (t->failed) {
         gm_thin_destroy(t);
         return gm_fail(error, GM_ERR_MEMORY, "no memory to thin the map");
@@ -267,8 +277,8 @@ void gm_thin_measure(const gm_thin *thin, gm_thin_loss loss[GM_THIN_KINDS])
         const double most = gm_grid_error(g, &square);
         const double part = g->reference > 0.0 ? 1.0 / g->reference : 0.0;
         l->tables++;
-        l->nodes += gm_grid_size(g->n);
-        l->kept += gm_grid_size(g->n_kept);
+        l->nodes += g->slices * gm_grid_size(g->n);
+        l->kept += g->slices * gm_grid_size(g->n_kept);
         l->most = fmax(l->most, most);
         l->relative = fmax(l->relative, most * part);
         l->root_mean_sq += square * part * part;

@@ -4,6 +4,7 @@
  * goes when linear interpolation between the nodes that stay gives its values within a
  * tolerance; the cheapest go first. What is lost is measured at all nodes of the map:
  * between them both are multilinear in the map's own cells, so it is largest at a node.
+ * With an oil axis a node stays or goes in all slices.
  *
  * The tolerance is a part of the reference torque: the largest loss torque at the same
  * flange in the same gears (a drag of 0.2 N.m beside a loss of 200 N.m needs no digits).

@@ -34,9 +34,10 @@ static void find_places(const gm_grid *g, int a, const bool *keep, place *places
     }
 }
 
-static double node(const gm_grid *g, int i, int j, int k)
+/* s: slice */
+static double node(const gm_grid *g, int s, int i, int j, int k)
 {
-    return g->value[(i * g->n[1] + j) * g->n[2] + k];
+    return g->value[((s * g->n[0] + i) * g->n[1] + j) * g->n[2] + k];
 }
 
 static double mix(double low, double high, double share)
@@ -44,27 +45,28 @@ static double mix(double low, double high, double share)
     return low + (high - low) * share;
 }
 
-static double along_z(const gm_grid *g, int i, int j, const place *z)
+static double along_z(const gm_grid *g, int s, int i, int j, const place *z)
 {
-    const double low = node(g, i, j, z->low);
-    return z->high == z->low ? low : mix(low, node(g, i, j, z->high), z->share);
+    const double low = node(g, s, i, j, z->low);
+    return z->high == z->low ? low : mix(low, node(g, s, i, j, z->high), z->share);
 }
 
-static double along_y(const gm_grid *g, int i, const place *y, const place *z)
+static double along_y(const gm_grid *g, int s, int i, const place *y, const place *z)
 {
-    const double low = along_z(g, i, y->low, z);
-    return y->high == y->low ? low : mix(low, along_z(g, i, y->high, z), y->share);
+    const double low = along_z(g, s, i, y->low, z);
+    return y->high == y->low ? low : mix(low, along_z(g, s, i, y->high, z), y->share);
 }
 
 /* What the kept nodes give at a place. */
-static double kept_at(const gm_grid *g, const place *x, const place *y, const place *z)
+static double kept_at(const gm_grid *g, int s, const place *x, const place *y,
+                      const place *z)
 {
-    const double low = along_y(g, x->low, y, z);
-    return x->high == x->low ? low : mix(low, along_y(g, x->high, y, z), x->share);
+    const double low = along_y(g, s, x->low, y, z);
+    return x->high == x->low ? low : mix(low, along_y(g, s, x->high, y, z), x->share);
 }
 
-/* Largest error in the nodes from[] to to[] (excluded). */
-static double error_within(const thinning *t, const int from[GM_GRID_AXES],
+/* Largest error in the nodes from[] to to[] (excluded) of a slice. */
+static double error_within(const thinning *t, int s, const int from[GM_GRID_AXES],
                            const int to[GM_GRID_AXES])
 {
     const gm_grid *g = t->grid;
@@ -72,9 +74,9 @@ static double error_within(const thinning *t, const int from[GM_GRID_AXES],
     for (int i = from[0]; i < to[0]; i++)
         for (int j = from[1]; j < to[1]; j++)
             for (int k = from[2]; k < to[2]; k++)
-                most = fmax(most, fabs(kept_at(g, &t->place[0][i], &t->place[1][j],
+                most = fmax(most, fabs(kept_at(g, s, &t->place[0][i], &t->place[1][j],
                                                &t->place[2][k]) -
-                                       node(g, i, j, k)));
+                                       node(g, s, i, j, k)));
     return most;
 }
 
@@ -91,7 +93,9 @@ static double error_without(thinning *t, int a, int i)
     to[a] = high;
     t->keep[a][i] = false;
     find_places(t->grid, a, t->keep[a], t->place[a]);
-    const double error = error_within(t, from, to);
+    double error = 0.0;
+    for (int s = 0; s < t->grid->slices; s++)
+        error = fmax(error, error_within(t, s, from, to));
     t->keep[a][i] = true;
     find_places(t->grid, a, t->keep[a], t->place[a]);
     return error;
@@ -141,11 +145,10 @@ static void copy_axis(gm_grid *g, int a, const bool *keep)
 static void copy_values(gm_grid *g, bool *const keep[GM_GRID_AXES])
 {
     int n = 0;
-    for (int i = 0; i < g->n[0]; i++)
-        for (int j = 0; j < g->n[1]; j++)
-            for (int k = 0; k < g->n[2]; k++)
-                if (keep[0][i] && keep[1][j] && keep[2][k])
-                    g->kept_value[n++] = node(g, i, j, k);
+    for (int m = 0; m < g->slices * gm_grid_size(g->n); m++)
+        if (keep[0][m / (g->n[1] * g->n[2]) % g->n[0]] &&
+            keep[1][m / g->n[2] % g->n[1]] && keep[2][m % g->n[2]])
+            g->kept_value[n++] = g->value[m];
 }
 
 static bool copy_kept(gm_grid *g, const thinning *t)
@@ -159,7 +162,8 @@ static bool copy_kept(gm_grid *g, const thinning *t)
             return false;
         copy_axis(g, a, t->keep[a]);
     }
-    g->kept_value = gm_calloc((size_t)gm_grid_size(g->n_kept), sizeof *g->kept_value);
+    g->kept_value =
+        gm_calloc((size_t)(g->slices * gm_grid_size(g->n_kept)), sizeof *g->kept_value);
     if (!g->kept_value)
         return false;
     copy_values(g, t->keep);
@@ -184,7 +188,7 @@ static bool prepare(const gm_grid *g, thinning *t)
 static double largest(const gm_grid *g)
 {
     double most = 0.0;
-    for (int i = 0; i < gm_grid_size(g->n_kept); i++)
+    for (int i = 0; i < g->slices * gm_grid_size(g->n_kept); i++)
         most = fmax(most, fabs(g->kept_value[i]));
     return most;
 }
@@ -192,7 +196,7 @@ static double largest(const gm_grid *g)
 static void store(gm_grid *g, gm_thin_stored *stored)
 {
     const double most = largest(g);
-    for (int i = 0; i < gm_grid_size(g->n_kept); i++)
+    for (int i = 0; i < g->slices * gm_grid_size(g->n_kept); i++)
         g->kept_value[i] = stored(g->kept_value[i], most);
 }
 
@@ -236,18 +240,20 @@ static place place_of(const gm_grid *g, int a, double x)
 
 double gm_grid_error(const gm_grid *grid, double *square)
 {
-    gm_grid kept = {.n = {grid->n_kept[0], grid->n_kept[1], grid->n_kept[2]},
+    gm_grid kept = {.slices = grid->slices,
+                    .n = {grid->n_kept[0], grid->n_kept[1], grid->n_kept[2]},
                     .value = grid->kept_value};
     double most = 0.0;
     place at[GM_GRID_AXES];
-    for (int n = 0; n < gm_grid_size(grid->n); n++) {
-        const int index[] = {n / (grid->n[1] * grid->n[2]), n / grid->n[2] % grid->n[1],
-                             n % grid->n[2]};
+    for (int n = 0; n < grid->slices * gm_grid_size(grid->n); n++) {
+        const int slice = n / gm_grid_size(grid->n);
+        const int index[] = {n / (grid->n[1] * grid->n[2]) % grid->n[0],
+                             n / grid->n[2] % grid->n[1], n % grid->n[2]};
         for (int a = 0; a < GM_GRID_AXES; a++)
             at[a] =
                 grid->x[a] ? place_of(grid, a, grid->x[a][index[a]]) : (place){0, 0, 0.0};
         const double error =
-            fabs(kept_at(&kept, &at[0], &at[1], &at[2]) - grid->value[n]);
+            fabs(kept_at(&kept, slice, &at[0], &at[1], &at[2]) - grid->value[n]);
         most = fmax(most, error);
         *square += error * error;
     }

@@ -15,7 +15,8 @@ enum { GM_GRID_AXES = 3 };
 typedef struct gm_grid {
     int kind;
     double reference;              /* N.m */
-    int n[GM_GRID_AXES];           /* nodes of the table */
+    int slices;                    /* of all values, one after the other */
+    int n[GM_GRID_AXES];           /* nodes of a slice */
     const double *x[GM_GRID_AXES]; /* NULL where there is no axis */
     const double *value;
     int n_kept[GM_GRID_AXES];

@@ -122,6 +122,11 @@ static bool follows_load(variable_id id)
     }
 }
 
+bool gm_bake_follows_oil(scalar of)
+{
+    return follows_load(of.id);
+}
+
 static bool is_torque(variable_id id)
 {
     return id == VARIABLE_PATH_TAU || id == VARIABLE_OUTPUT_TAU;

@@ -79,6 +79,9 @@ typedef enum dependency {
 dependency gm_bake_depends(scalar of, scalar on);
 dependency gm_bake_depends_initially(scalar of, scalar on);
 
+/** Whether an output follows the oil temperature, where the map has an oil axis. */
+bool gm_bake_follows_oil(scalar of);
+
 typedef struct display_unit {
     const char *name;
     double factor, offset; /* displayed = factor * value + offset */

@@ -27,9 +27,21 @@ typedef struct gm_place {
 gm_place gm_place_on(const gm_axis *axis, gm_real q);
 
 /* Monotone tables, also when the cell is the last one's: interp_monotone.c. */
-gm_value1 gm_monotone1(const gm_table1 *t, int table, gm_cell1 *cell, gm_real x);
-gm_value2 gm_monotone2(const gm_table2 *t, int table, gm_cell2 *cell, gm_real x,
-                       gm_real y);
+gm_value1 gm_monotone1(const gm_table1 *t, const gm_slices *of, int table, gm_cell1 *cell,
+                       gm_real x);
+gm_value2 gm_monotone2(const gm_table2 *t, const gm_slices *of, int table, gm_cell2 *cell,
+                       gm_real x, gm_real y);
+
+/* Of two slices what *of says; the first alone is left as it is. */
+static inline int gm_is_blend(const gm_slices *of)
+{
+    return GM_OIL_AXIS && of->share != 0;
+}
+
+static inline gm_real gm_blend(const gm_slices *of, gm_real near, gm_real far)
+{
+    return of->rest * near + of->share * far;
+}
 
 gm_value1 gm_cell1_refill(const gm_table1 *t, int table, gm_cell1 *cell, gm_real x);
 gm_value2 gm_cell2_refill(const gm_table2 *t, int table, gm_cell2 *cell, gm_real x,

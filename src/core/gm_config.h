@@ -9,5 +9,6 @@
 #define GM_REAL_IS_FLOAT 0   /* 1: float instead of double */
 #define GM_NODES_ARE_INT16 0 /* 1: tables hold int16_t and a scale */
 #define GM_CURVED 1          /* 0: no table is monotone, all are linear */
+#define GM_OIL_AXIS 1        /* 0: tables hold for one oil temperature only */
 
 #endif

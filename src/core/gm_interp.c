@@ -12,6 +12,8 @@
 
 #include <stddef.h>
 
+static const gm_slices first_slice = {0, 1, 0};
+
 int gm_axis_find(const gm_axis *axis, gm_real q)
 {
     int low = 0, high = axis->n - 1;
@@ -51,7 +53,7 @@ gm_place gm_place_on(const gm_axis *axis, gm_real q)
 gm_value1 gm_cell1_refill(const gm_table1 *t, int table, gm_cell1 *c, gm_real x)
 {
     if (GM_CURVED && t->monotone) {
-        return gm_monotone1(t, table, c, x);
+        return gm_monotone1(t, &first_slice, table, c, x);
     }
     const gm_place p = gm_place_on(&t->x, x);
     const gm_real near = GM_NODE(t, p.i), far = GM_NODE(t, p.i + (t->x.n > 1));
@@ -89,7 +91,7 @@ gm_value2 gm_cell2_refill(const gm_table2 *t, int table, gm_cell2 *c, gm_real x,
                           gm_real y)
 {
     if (GM_CURVED && t->monotone) {
-        return gm_monotone2(t, table, c, x, y);
+        return gm_monotone2(t, &first_slice, table, c, x, y);
     }
     const gm_place px = gm_place_on(&t->x, x), py = gm_place_on(&t->y, y);
     const ptrdiff_t row = t->y.n, next = t->x.n > 1 ? row : 0, step = row > 1;

@@ -61,6 +61,14 @@ typedef struct gm_table3 {
     GM_NODE_SCALE
 } gm_table3;
 
+/** A table may hold several slices of values, one after the other, each with all its
+ *  nodes. What is read is rest * slice[at] + share * slice[at + 1]; with share 0 slice[at]
+ *  as it is, so zeroed memory is the first slice. Calls without slices read the first. */
+typedef struct gm_slices {
+    int at;
+    gm_real rest, share;
+} gm_slices;
+
 /* Cells hold no pointer: a saved state stays valid in another process. A cell is filled
  * for one table; .table is a small number that the caller gives each table, and a cell of
  * another table is refilled. Zero-initialised cells are empty (table 0 is "none"). A cell

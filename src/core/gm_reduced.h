@@ -117,6 +117,15 @@ typedef struct gm_configuration {
                                  output, signed. value = NULL: zero */
 } gm_configuration;
 
+/** Oil temperatures of the slices of all tables. With the way u = 0 .. 1 from one to the
+ *  next, losses follow the share u (1 + bend) / (1 + bend u) of the next slice: bend 0 is
+ *  linear; with bend > 0 they change most at the lower temperature, as a viscosity does. */
+typedef struct gm_oil_axis {
+    int n; /* slices; 0 or 1: one, and the temperature has no effect */
+    const gm_real *temperature; /* [n] K, strictly increasing */
+    const gm_real *bend;        /* [n - 1], > -1 */
+} gm_oil_axis;
+
 /** Everything a gearset is reduced to. Constant; may live in flash. */
 typedef struct gm_reduced_map {
     int n_paths; /* 1 or 2 */
@@ -125,10 +134,12 @@ typedef struct gm_reduced_map {
      */
     int n_configurations;
     const gm_configuration *configurations;
-    gm_table1 coupling;      /* C: x relative speed w_0 - w_1, signed [rad/s] -> N.m; zero
+    gm_table1 coupling;     /* C: x relative speed w_0 - w_1, signed [rad/s] -> N.m; zero
                                 when value = NULL. C(w_1 - w_0) = -C(w_0 - w_1). */
-    gm_real inertia_output;  /* J_out [kg.m2] */
-    gm_real oil_temperature; /* that the tables hold for [K] */
+    gm_real inertia_output; /* J_out [kg.m2] */
+    gm_oil_axis oil;
+    gm_real oil_temperature; /* that the tables hold for; with an oil axis one of its
+                                range, usual in operation [K] */
     /* Flanges, the output last, whose motion is prescribed from outside: speed and
        acceleration come in, the torque that they take goes out. A path needs fidelity
        lash and gears with a stiffness for it: a rigid path that is engaged turns with
@@ -159,7 +170,8 @@ typedef struct gm_reduced_inputs {
     gm_real output_tau, output_tau_rate; /* N.m, N.m/s */
     gm_real path_tau[GM_MAX_PATHS], path_tau_rate[GM_MAX_PATHS];
     int gear[GM_MAX_PATHS];  /* commanded gear numbers */
-    gm_real oil_temperature; /* K; without effect while maps have no such axis */
+    gm_real oil_temperature; /* K; constant over a step. Without effect where the map has
+                                no oil axis */
     /* Of prescribed flanges, instead of torques: speed at the start of a step [rad/s] and
        its derivative over it [rad/s2]. A speed that jumps between steps does so by an
        impulse, which is in the account of work. */
@@ -205,9 +217,18 @@ typedef struct gm_block {
     gm_real low[3], high[3], c[2][2][2];
 } gm_block;
 
+/** An oil temperature and where it lies between the slices of the tables. inside: 0
+ *  beyond their range, where the nearest slice is used. */
+typedef struct gm_oil_place {
+    gm_real temperature;
+    int inside;
+    gm_slices slices;
+} gm_oil_place;
+
 /** What was read from tables the last time. No influence on results. Zeroed memory is an
  *  empty cache. */
 typedef struct gm_reduced_cache {
+    gm_oil_place oil; /* all the rest is for this temperature */
     gm_strip parasitic, coupling, pin[GM_MAX_PATHS];
     gm_patch path[GM_MAX_PATHS];
     gm_block both_loaded;
@@ -257,6 +278,12 @@ enum {
     GM_FLAG_GEAR_REFUSED_0 = 4, /* unknown gear number commanded on path 0; gear kept */
     GM_FLAG_GEAR_REFUSED_1 = 8
 };
+
+/** Slices of every table: 1 without an oil axis. */
+static inline int gm_reduced_slices(const gm_reduced_map *map)
+{
+    return map->oil.n > 1 ? map->oil.n : 1;
+}
 
 /** Rigid, loss_scale 1 and the map's own cone capacities. */
 void gm_reduced_default_params(const gm_reduced_map *map, gm_reduced_params *params);

@@ -20,7 +20,7 @@ typedef struct gm_reduced_change {
     gm_real w_o, w[GM_MAX_PATHS], twist[GM_MAX_PATHS];
     gm_real output_tau, path_tau[GM_MAX_PATHS]; /* flange torques */
     gm_real a[GM_MAX_PATHS + 1]; /* accelerations of prescribed flanges, output last */
-    gm_real loss_scale;
+    gm_real loss_scale, oil_temperature;
 } gm_reduced_change;
 
 /** Derivatives of all that gm_reduced_outputs_at tells (modes NULL: the modes are those

@@ -96,30 +96,31 @@ static gm_real slope(const line *l, gm_real factor)
     return (a > 0) == (b > 0) && (a < 0) == (b < 0) ? limited(m, a, limit) : 0;
 }
 
-static gm_real slope_1(const gm_table1 *t, int i)
+static gm_real slope_1(const gm_table1 *t, ptrdiff_t from, int i)
 {
     line l = line_on(&t->x, i);
     for (int k = 0; k < l.n; k++) {
-        l.f[k] = GM_NODE(t, l.first + k);
+        l.f[k] = GM_NODE(t, from + l.first + k);
     }
     return slope(&l, LIMIT_1);
 }
 
-/* The lines of a table in two dimensions through node (i, j). */
-static line along_x(const gm_table2 *t, int i, int j)
+/* The lines of a table in two dimensions through node (i, j) of the slice that begins at
+ * node `from`. */
+static line along_x(const gm_table2 *t, ptrdiff_t from, int i, int j)
 {
     line l = line_on(&t->x, i);
     for (int k = 0; k < l.n; k++) {
-        l.f[k] = GM_NODE(t, (ptrdiff_t)(l.first + k) * t->y.n + j);
+        l.f[k] = GM_NODE(t, from + (ptrdiff_t)(l.first + k) * t->y.n + j);
     }
     return l;
 }
 
-static line along_y(const gm_table2 *t, int i, int j)
+static line along_y(const gm_table2 *t, ptrdiff_t from, int i, int j)
 {
     line l = line_on(&t->y, j);
     for (int k = 0; k < l.n; k++) {
-        l.f[k] = GM_NODE(t, (ptrdiff_t)i * t->y.n + l.first + k);
+        l.f[k] = GM_NODE(t, from + (ptrdiff_t)i * t->y.n + l.first + k);
     }
     return l;
 }
@@ -148,20 +149,35 @@ static gm_real slope_at(const gm_real c[4], gm_real u)
     return c[1] + u * (2 * c[2] + u * 3 * c[3]);
 }
 
-gm_value1 gm_monotone1(const gm_table1 *t, int table, gm_cell1 *cell, gm_real x)
+/* Values and slopes at the ends of cell i: f_0, f_1, m_0, m_1. */
+static void ends_1(const gm_table1 *t, ptrdiff_t from, int i, gm_real e[4])
+{
+    const int next = t->x.n > 1;
+    e[0] = GM_NODE(t, from + i);
+    e[1] = GM_NODE(t, from + i + next);
+    e[2] = slope_1(t, from, i);
+    e[3] = slope_1(t, from, i + next);
+}
+
+gm_value1 gm_monotone1(const gm_table1 *t, const gm_slices *of, int table, gm_cell1 *cell,
+                       gm_real x)
 {
     const gm_place p = gm_place_on(&t->x, x);
-    const int next = t->x.n > 1;
-    const gm_real m_0 = slope_1(t, p.i), m_1 = slope_1(t, p.i + next);
-    const gm_real near = GM_NODE(t, p.i), far = GM_NODE(t, p.i + next);
-    gm_real c[4];
-    cubic(near, far, m_0, m_1, p.slope, c);
+    gm_real c[4], e[4], other[4];
+    ends_1(t, (ptrdiff_t)of->at * t->x.n, p.i, e);
+    if (gm_is_blend(of)) {
+        ends_1(t, (ptrdiff_t)(of->at + 1) * t->x.n, p.i, other);
+        for (int k = 0; k < 4; k++) {
+            e[k] = gm_blend(of, e[k], other[k]);
+        }
+    }
+    cubic(e[0], e[1], e[2], e[3], p.slope, c);
     cell->table = -table;
     cell->x_low = p.low;
     cell->x_high = p.high;
     gm_value1 v;
-    v.value = p.far ? far : at(c, p.q - p.low);
-    v.dx = p.outside ? 0 : p.far ? m_1 : slope_at(c, p.q - p.low);
+    v.value = p.far ? e[1] : at(c, p.q - p.low);
+    v.dx = p.outside ? 0 : p.far ? e[3] : slope_at(c, p.q - p.low);
     v.outside = p.outside;
     return v;
 }
@@ -176,10 +192,10 @@ typedef struct corner {
 /* Narrow low .. high so that with a twist in it the Bezier point diagonal of node (i, j)
  * in the cell towards (a, b), each +1 or -1, stays between the values of that cell's
  * corners, and that slopes keep their sign along its edges. Zero stays in. */
-static void narrow(const gm_table2 *t, int i, int j, int a, int b, const corner *c,
-                   gm_real *low, gm_real *high)
+static void narrow(const gm_table2 *t, ptrdiff_t from, int i, int j, int a, int b,
+                   const corner *c, gm_real *low, gm_real *high)
 {
-    const ptrdiff_t row = t->y.n, at = i * row + j;
+    const ptrdiff_t row = t->y.n, at = from + i * row + j;
     const gm_real h_x = t->x.x[i + a] - t->x.x[i], h_y = t->y.x[j + b] - t->y.x[j];
     const gm_real f[3] = {GM_NODE(t, at + a * row), GM_NODE(t, at + b),
                           GM_NODE(t, at + a * row + b)};
@@ -200,7 +216,7 @@ static void narrow(const gm_table2 *t, int i, int j, int a, int b, const corner 
 
 /* Mixed derivative of the parabolas through the nodes around (i, j), limited by all
  * cells around it. */
-static gm_real twist(const gm_table2 *t, int i, int j, const corner *c)
+static gm_real twist(const gm_table2 *t, ptrdiff_t from, int i, int j, const corner *c)
 {
     const int n_x = t->x.n, n_y = t->y.n;
     gm_real low = -GM_UNBOUNDED, high = GM_UNBOUNDED;
@@ -209,14 +225,14 @@ static gm_real twist(const gm_table2 *t, int i, int j, const corner *c)
     }
     line slopes = line_on(&t->x, i); /* d/dy at the nodes of the parabola in x */
     for (int k = 0; k < slopes.n; k++) {
-        const line l = along_y(t, slopes.first + k, j);
+        const line l = along_y(t, from, slopes.first + k, j);
         slopes.f[k] = parabola(&l);
     }
     const gm_real raw = parabola(&slopes);
     for (int k = 0; k < 4; k++) {
         const int a = k & 1 ? 1 : -1, b = k & 2 ? 1 : -1;
         if (i + a >= 0 && i + a < n_x && j + b >= 0 && j + b < n_y) {
-            narrow(t, i, j, a, b, c, &low, &high);
+            narrow(t, from, i, j, a, b, c, &low, &high);
         }
     }
     low = smaller(low, 0);
@@ -224,12 +240,27 @@ static gm_real twist(const gm_table2 *t, int i, int j, const corner *c)
     return raw < low ? low : raw > high ? high : raw;
 }
 
-static corner corner_at(const gm_table2 *t, int i, int j)
+static corner corner_at(const gm_table2 *t, ptrdiff_t from, int i, int j)
 {
-    const line x = along_x(t, i, j), y = along_y(t, i, j);
-    corner c = {GM_NODE(t, (ptrdiff_t)i * t->y.n + j), slope(&x, LIMIT_2),
+    const line x = along_x(t, from, i, j), y = along_y(t, from, i, j);
+    corner c = {GM_NODE(t, from + (ptrdiff_t)i * t->y.n + j), slope(&x, LIMIT_2),
                 slope(&y, LIMIT_2), 0};
-    c.xy = twist(t, i, j, &c);
+    c.xy = twist(t, from, i, j, &c);
+    return c;
+}
+
+/* Slices are surfaces of their own; between two of them everything is linear. */
+static corner blended_corner(const gm_table2 *t, const gm_slices *of, int i, int j)
+{
+    const ptrdiff_t size = (ptrdiff_t)t->x.n * t->y.n, from = of->at * size;
+    corner c = corner_at(t, from, i, j);
+    if (gm_is_blend(of)) {
+        const corner next = corner_at(t, from + size, i, j);
+        c.f = gm_blend(of, c.f, next.f);
+        c.x = gm_blend(of, c.x, next.x);
+        c.y = gm_blend(of, c.y, next.y);
+        c.xy = gm_blend(of, c.xy, next.xy);
+    }
     return c;
 }
 
@@ -306,7 +337,8 @@ static int is_inside(const gm_cell2 *c, int table, gm_real x, gm_real y)
            y < c->y_high;
 }
 
-gm_value2 gm_monotone2(const gm_table2 *t, int table, gm_cell2 *c, gm_real x, gm_real y)
+gm_value2 gm_monotone2(const gm_table2 *t, const gm_slices *of, int table, gm_cell2 *c,
+                       gm_real x, gm_real y)
 {
     corner f[2][2];
     if (is_inside(c, table, x, y)) {
@@ -315,7 +347,8 @@ gm_value2 gm_monotone2(const gm_table2 *t, int table, gm_cell2 *c, gm_real x, gm
     const gm_place p = gm_place_on(&t->x, x), q = gm_place_on(&t->y, y);
     for (int k = 0; k < 4; k++) {
         const int a = k & 1, b = k >> 1;
-        f[a][b] = corner_at(t, p.i + (t->x.n > 1 ? a : 0), q.i + (t->y.n > 1 ? b : 0));
+        f[a][b] =
+            blended_corner(t, of, p.i + (t->x.n > 1 ? a : 0), q.i + (t->y.n > 1 ? b : 0));
     }
     c->table = -table;
     c->x_low = p.low;

@@ -115,13 +115,13 @@ typedef struct spots {
 } spots;
 
 /* The surface of a table in its spots about the corner of the patch. */
-static gm_surface about_corner(const gm_table2 *t, gm_cell2 *curved, const place *q,
-                               const spots *at, const gm_patch *c)
+static gm_surface about_corner(const gm_table2 *t, const gm_slices *of, gm_cell2 *curved,
+                               const place *q, const spots *at, const gm_patch *c)
 {
     const gm_spot *x = &at->x, *y = &at->y;
     gm_surface s = GM_CURVED && t->monotone
-                       ? gm_tangent_at(t, quadrant(q), curved, q->x, q->y, x, y)
-                       : gm_surface_at(t, x, y);
+                       ? gm_tangent_at(t, of, quadrant(q), curved, q->x, q->y, x, y)
+                       : gm_surface_at(t, of, x, y);
     const gm_real u = x->next ? c->x_low - x->low : 0;
     const gm_real v = y->next ? c->y_low - y->low : 0;
     s.c += s.cx * u + s.cy * v + s.cxy * u * v;
@@ -160,13 +160,13 @@ static void add_ramps(gm_real r, const place *q, const gm_strip *half, int slips
     add_product(-r, half, both, &c->b);
 }
 
-static void add_line(const gm_drag_line *line, const place *q, const gm_spot *y,
-                     gm_patch *c)
+static void add_line(const gm_drag_line *line, const gm_slices *of, const place *q,
+                     const gm_spot *y, gm_patch *c)
 {
     const gm_real r = line->ratio;
     const int slips = side_of(q->w - r * q->w_o);
     const int rests = q->y < GM_LINE_WIDTH / gm_abs(r) ? 0 : r * q->sign_o > 0 ? 1 : -1;
-    gm_strip half = gm_line_at(&line->jump[q->j], q->y, y);
+    gm_strip half = gm_line_at(&line->jump[q->j], of, q->y, y);
     half.cx /= 2;
     half.c = half.c / 2 + half.cx * (y->next ? c->y_low - y->low : 0);
     if (slips == 0 || rests == 0) {
@@ -201,6 +201,7 @@ static spots spots_of(const gm_table2 *t, const place *q)
 static void fill(const gm_drive *d, int p, const place *q, gm_patch *c)
 {
     const gm_path *path = &d->map->path[p];
+    const gm_slices *of = &d->cache->oil.slices;
     const gm_table2 *n = &path->drag[q->i][q->j], *r = &path->reaction[q->i][q->j];
     const int curved = GM_CURVED && n->monotone, n_lines = path->n_lines;
     const spots at_n = spots_of(n, q);
@@ -218,12 +219,12 @@ static void fill(const gm_drive *d, int p, const place *q, gm_patch *c)
         narrow(&at_n.x, &y, c);
         add_bounds(path->lines[i].ratio, q, c);
     }
-    c->a = about_corner(n, gm_curved_cell(d->cache, p, 0), q, &at_n, c);
-    c->b = about_corner(r, gm_curved_cell(d->cache, p, 1), q, &at_r, c);
+    c->a = about_corner(n, of, gm_curved_cell(d->cache, p, 0), q, &at_n, c);
+    c->b = about_corner(r, of, gm_curved_cell(d->cache, p, 1), q, &at_r, c);
     for (int i = 0; i < n_lines; i++) {
         const gm_axis *axis = &path->lines[i].jump[q->j].x;
         const gm_spot y = spot_again(axis, curved, &n->y, &at_n.y, q->y);
-        add_line(&path->lines[i], q, &y, c);
+        add_line(&path->lines[i], of, q, &y, c);
     }
 }
 
@@ -261,11 +262,12 @@ gm_real gm_drag_at_rest(const gm_drive *d, int p, gm_real sign_n, gm_real sign_o
     const gm_real w_o = at->m[GM_OUT], y = gm_not_below_zero(sign_o * w_o);
     const gm_table2 *n = &path->drag[i][j];
     const gm_spot s = gm_spot_on(&n->y, y);
-    gm_real sum = gm_value_at_rest(n, y);
+    const gm_slices *of = &d->cache->oil.slices;
+    gm_real sum = gm_value_at_rest(n, of, y);
     for (int k = 0; k < path->n_lines; k++) {
         const gm_table1 *jump = &path->lines[k].jump[j];
         const gm_spot l = spot_again(&jump->x, 0, &n->y, &s, y);
-        const gm_strip at_y = gm_line_at(jump, y, &l);
+        const gm_strip at_y = gm_line_at(jump, of, y, &l);
         const gm_real slip = -path->lines[k].ratio * w_o / GM_LINE_WIDTH;
         const gm_real half = (at_y.c + at_y.cx * (y - l.low)) / 2;
         sum += half * (slip > 1 ? 1 : slip < -1 ? -1 : slip);

@@ -145,6 +145,9 @@ void gm_make_drive(const gm_reduced_map *map, const gm_reduced_params *params,
 void gm_set_span(const gm_reduced_inputs *in, gm_real t, gm_real h, gm_drive *d)
 {
     const gm_real middle = t + h / 2, z = d->stiff * h * h;
+    if (gm_has_oil_axis(d->map) && d->cache->oil.temperature != in->oil_temperature) {
+        gm_move_oil(&d->map->oil, in->oil_temperature, d->cache);
+    }
     d->h = h;
     d->mean = z <= 4 ? h / 2 : h * (z / (4 + z));
     d->late = z <= 4 ? 0 : (z - 4) / (z + 4);

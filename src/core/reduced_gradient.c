@@ -38,22 +38,32 @@ static int is_rigid(const gm_drive *d, int p)
 
 /* ---- what follows from a direction ---- */
 
-/* The terms of *s at its point; what loss_scale alone changes of them in *t. */
-static void terms_here(const gm_drive *d, gm_solution *s, gm_real d_scale, losses *t)
+static void add_losses(gm_real factor, const gm_terms *from, losses *t)
+{
+    t->out += factor * from->out;
+    t->coupling += factor * from->coupling;
+    for (int p = 0; p < GM_MAX_PATHS; p++) {
+        t->load[p] += factor * from->path[p].load;
+        t->drag[p] += factor * from->path[p].drag;
+        t->reaction[p] += factor * from->path[p].reaction;
+    }
+}
+
+/* The terms of *s at its point; what loss_scale and oil temperature alone change of them
+ * in *t. */
+static void terms_here(const gm_drive *d, gm_solution *s, const gm_reduced_change *by,
+                       losses *t)
 {
     gm_drive read = *d;
-    const gm_terms *at = &s->terms;
     read.scale = d->scale > TINY_SCALE ? d->scale : TINY_SCALE;
     gm_terms_at(&read, s, &s->point);
-    const gm_real part = d_scale / read.scale;
-    t->out = part * at->out;
-    t->coupling = part * at->coupling;
-    for (int p = 0; p < GM_MAX_PATHS; p++) {
-        t->load[p] = part * at->path[p].load;
-        t->drag[p] = part * at->path[p].drag;
-        t->reaction[p] = part * at->path[p].reaction;
-    }
+    add_losses(by->loss_scale / read.scale, &s->terms, t);
     gm_terms_at(d, s, &s->point);
+    if (gm_has_oil_axis(d->map) && by->oil_temperature != 0) {
+        gm_terms per_kelvin;
+        gm_terms_by_oil(d, s, &per_kelvin);
+        add_losses(by->oil_temperature, &per_kelvin, t);
+    }
 }
 
 static void change_speeds(const gm_drive *d, const gm_solution *s, int still,
@@ -158,7 +168,7 @@ static change follow(const gm_drive *d, gm_solution *s, int still,
     static const change none = {.m = {0}};
     change c = none;
     start_torques(d, by, &c);
-    terms_here(d, s, by->loss_scale, &c.terms);
+    terms_here(d, s, by, &c.terms);
     change_speeds(d, s, still, by, &c);
     c.terms.coupling += s->terms.coupling_w * (c.m[0] - c.m[1]);
     c.terms.out += s->terms.out_o * c.m[GM_OUT];

@@ -38,7 +38,8 @@ static gm_real coupling_at(const gm_drive *d, const gm_solution *s, const gm_poi
                            gm_terms *t)
 {
     const gm_real slip = d->w[0] - d->w[1] + s->lead * gm_parting(d, at);
-    const gm_strip *c = gm_strip_at(&d->map->coupling, 1, &d->cache->coupling, slip);
+    const gm_strip *c = gm_strip_at(&d->map->coupling, &d->cache->oil.slices, 1,
+                                    &d->cache->coupling, slip);
     t->coupling = d->scale * gm_on_strip(c, slip);
     t->coupling_w = d->scale * c->cx;
     t->coupling_a = t->coupling_w * s->lead;
@@ -64,7 +65,8 @@ static void load_terms(const gm_drive *d, int p, gm_real sign_o, const gm_point 
     const gm_real y = sigma * at->tau_m[p];
     gm_patch *c = &d->cache->path[p];
     if (c->key != key || !gm_in_patch(c, x, y) || (GM_CURVED && table->monotone)) {
-        gm_fill_patch(table, key, gm_curved_cell(d->cache, p, 0), x, y, c);
+        gm_fill_patch(table, &d->cache->oil.slices, key, gm_curved_cell(d->cache, p, 0),
+                      x, y, c);
     }
     const gm_real u = x - c->x_low, v = y - c->y_low, dx = c->a.cx + c->a.cxy * v;
     gm_path_terms *path = &t->path[p];
@@ -89,7 +91,7 @@ static void add_both_loaded(const gm_drive *d, gm_real sigma, const gm_point *at
         return;
     }
     if (b->key != key || !gm_in_block(b, q)) {
-        gm_fill_block(table, key, q, b);
+        gm_fill_block(table, &d->cache->oil.slices, key, q, b);
     }
     const gm_real u = q[0] - b->low[0], v = q[1] - b->low[1], w = q[2] - b->low[2];
     const gm_real(*c)[2][2] = (const gm_real(*)[2][2])b->c;
@@ -117,8 +119,9 @@ void gm_output_terms(const gm_drive *d, gm_real sigma, const gm_point *at, gm_te
 {
     const int dir = gm_direction(sigma);
     const gm_real speed = sigma * at->m[GM_OUT], x = gm_not_below_zero(speed);
-    const gm_strip *c = gm_strip_at(&d->configuration->parasitic[dir],
-                                    1 + 2 * d->index + dir, &d->cache->parasitic, x);
+    const gm_strip *c =
+        gm_strip_at(&d->configuration->parasitic[dir], &d->cache->oil.slices,
+                    1 + 2 * d->index + dir, &d->cache->parasitic, x);
     t->out = d->scale * sigma * gm_on_strip(c, x);
     t->out_o = speed < 0 ? 0 : d->scale * c->cx;
     t->outside |= c->outside;
@@ -140,17 +143,19 @@ void gm_output_terms_at_rest(const gm_drive *d, gm_real sign, const gm_point *at
 {
     const int dir = gm_direction(sign);
     const gm_table3 *both = &d->configuration->both_loaded[dir];
-    gm_real sum = GM_NODE(&d->configuration->parasitic[dir], 0), s[GM_MAX_PATHS] = {0, 0};
+    const gm_slices *of = &d->cache->oil.slices;
+    gm_real sum = gm_value1_at_rest(&d->configuration->parasitic[dir], of);
+    gm_real s[GM_MAX_PATHS] = {0, 0};
     for (int p = 0; p < d->n_paths; p++) {
         s[p] = d->ratio[p] < 0 ? -sign : sign;
         if (d->engaged[p]) {
             const gm_table2 *load = &d->gear[p]->load_loss[gm_direction(s[p])];
             t->path[p].load =
-                d->scale * s[p] * gm_value_at_rest(load, s[p] * at->tau_m[p]);
+                d->scale * s[p] * gm_value_at_rest(load, of, s[p] * at->tau_m[p]);
         }
     }
     if (d->engaged[0] && d->engaged[1] && both->value != NULL) {
-        sum += gm_value3_at_rest(both, s[0] * at->tau_m[0], s[1] * at->tau_m[1]);
+        sum += gm_value3_at_rest(both, of, s[0] * at->tau_m[0], s[1] * at->tau_m[1]);
     }
     t->out = d->scale * sign * sum;
     for (int p = 0; p < d->n_paths; p++) {
@@ -173,7 +178,8 @@ static gm_real pin_at(const gm_drive *d, int p, gm_real sign, const gm_point *at
     if (table->value == NULL) {
         return 0;
     }
-    const gm_strip *c = gm_strip_at(table, gear_key(d, p, dir), &d->cache->pin[p], x);
+    const gm_strip *c = gm_strip_at(table, &d->cache->oil.slices, gear_key(d, p, dir),
+                                    &d->cache->pin[p], x);
     *slope = speed < 0 ? 0 : d->scale * c->cx * r;
     t->outside |= c->outside;
     return d->scale * gm_on_strip(c, x);
@@ -212,10 +218,11 @@ void gm_clear_terms(gm_terms *t)
     *t = none;
 }
 
-void gm_terms_at(const gm_drive *d, gm_solution *s, gm_point *at)
+/* All but what acts on the output. */
+static void path_terms(const gm_drive *d, const gm_solution *s, gm_point *at, gm_terms *t)
 {
-    gm_terms *t = &s->terms;
     gm_clear_terms(t);
+    t->outside = gm_has_oil_axis(d->map) && !d->cache->oil.inside;
     const gm_real c = d->coupled ? coupling_at(d, s, at, t) : 0;
     for (int p = 0; p < d->n_paths; p++) {
         const gm_real tau = d->tau[p] + (p == 0 ? -c : c);
@@ -227,8 +234,31 @@ void gm_terms_at(const gm_drive *d, gm_solution *s, gm_point *at)
             gm_drag_terms(d, p, s->sign[p], s->sign[GM_OUT], at, t);
         }
     }
+}
+
+void gm_terms_at(const gm_drive *d, gm_solution *s, gm_point *at)
+{
+    path_terms(d, s, at, &s->terms);
     if (!s->held[GM_OUT]) {
-        gm_output_terms(d, s->sign[GM_OUT], at, t);
+        gm_output_terms(d, s->sign[GM_OUT], at, &s->terms);
+    }
+}
+
+void gm_terms_by_oil(const gm_drive *d, const gm_solution *s, gm_terms *t)
+{
+    static const gm_reduced_cache empty = {0};
+    gm_reduced_cache slope = empty;
+    gm_drive by = *d;
+    gm_point at = s->point; /* whose torques path_terms would make anew */
+    gm_clear_terms(t);
+    slope.oil.slices = gm_oil_slope(&d->map->oil, &d->cache->oil);
+    if (slope.oil.slices.share == 0) {
+        return; /* beyond the axis */
+    }
+    by.cache = &slope;
+    path_terms(&by, s, &at, t);
+    if (!s->held[GM_OUT]) {
+        gm_output_terms(&by, s->sign[GM_OUT], &s->point, t);
     }
 }
 

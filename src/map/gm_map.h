@@ -13,7 +13,9 @@
 extern "C" {
 #endif
 
-#define GM_MAP_FORMAT 3 /* version of the file's schema */
+/* Version of the file's schema; maps without an oil axis are written in the older one. */
+#define GM_MAP_FORMAT 4
+#define GM_MAP_FORMAT_ONE_OIL 3
 #define GM_MAP_TEXT 128
 #define GM_MAP_ANY 99 /* in place of a gear or direction that does not apply */
 
@@ -56,13 +58,15 @@ gm_table_key gm_table_key_of(gm_symbol symbol);
 #define GM_MAP_MAX_TABLES 8192
 #define GM_MAP_MAX_NODES 100000
 #define GM_MAP_MAX_VALUES 10000000 /* of one table */
+#define GM_MAP_MAX_OIL 32          /* oil temperatures */
 
 typedef struct gm_map_table {
     gm_table_key key;
     int n_axes;
     int n[GM_MAX_AXES];     /* nodes; 1 where there is no such axis */
     double *x[GM_MAX_AXES]; /* SI, strictly increasing; NULL where there is no axis */
-    double *value;          /* [n0][n1][n2], SI */
+    int slices;             /* one, or one for each oil temperature of the map */
+    double *value;          /* [slices][n0][n1][n2], SI */
 } gm_map_table;
 
 typedef struct gm_map_gear {
@@ -96,6 +100,10 @@ typedef struct gm_map {
     char content_hash[65];                         /* filled when finished or read */
     double speed_max, torque_max, oil_temperature; /* rad/s, N.m, K */
     double inertia_output;
+    /* The oil axis, which all tables share; n_oil 0: none. Temperatures [K] are strictly
+       increasing. oil_bend[k] > -1: how losses go from one to the next (gm_oil_axis). */
+    int n_oil;
+    double oil[GM_MAP_MAX_OIL], oil_bend[GM_MAP_MAX_OIL];
     int n_paths;
     gm_map_path paths[GM_MAX_PATHS];
     int n_tables;
@@ -110,6 +118,18 @@ void gm_map_destroy(gm_map *map);
  *  first. name: 1 to 15 characters. GM_ERR_ARGUMENT, GM_ERR_MEMORY. */
 GM_NODISCARD gm_status gm_map_set_path(gm_map *map, int p, const char *name, int n_gears,
                                        gm_error *error);
+
+/** Give an empty map an oil axis of n >= 2 temperatures [K], with no bend; its tables will
+ *  have a slice for each. GM_ERR_ARGUMENT: they are not above zero and strictly
+ *  increasing, more than GM_MAP_MAX_OIL, or the map has tables already. */
+GM_NODISCARD gm_status gm_map_set_oil(gm_map *map, int n, const double *temperature,
+                                      gm_error *error);
+
+/** Slices of each table: 1 without an oil axis. */
+int gm_map_slices(const gm_map *map);
+
+/** The slice whose temperature is nearest to the map's oil_temperature. */
+int gm_map_usual_slice(const gm_map *map);
 
 /** Add a table with copies of the axes; values are zero. *index receives its number.
  *  n[n_axes], x[n_axes][n[a]]: as the symbol demands, each strictly increasing, speeds
@@ -132,7 +152,9 @@ const gm_map_table *gm_map_find(const gm_map *map, const gm_table_key *key);
  *  table (N, R) of it: gearsets that are always in gear. */
 int gm_map_has_neutral(const gm_map *map, int p);
 
-/** Number of values of a table, and of one of its rows (first axis fixed). */
+/** Number of values of a table, of one of its slices, and of one of its rows (first axis
+ *  fixed). */
+int gm_map_value_count(const gm_map_table *table);
 int gm_map_table_size(const gm_map_table *table);
 int gm_map_row_size(const gm_map_table *table);
 

@@ -7,6 +7,7 @@
 #include "base/alloc.h"
 #include "map/map_rules.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -72,10 +73,10 @@ static bool grow(gm_map *map)
     return tables != NULL;
 }
 
-static bool fill_table(gm_map_table *table, const gm_table_key *key, int n_axes,
-                       const int *n, const double *const *x)
+static bool fill_table(gm_map_table *table, const gm_table_key *key, int slices,
+                       int n_axes, const int *n, const double *const *x)
 {
-    *table = (gm_map_table){.key = *key, .n_axes = n_axes};
+    *table = (gm_map_table){.key = *key, .slices = slices, .n_axes = n_axes};
     for (int a = 0; a < GM_MAX_AXES; a++) {
         table->n[a] = a < n_axes ? n[a] : 1;
         if (a >= n_axes)
@@ -85,7 +86,7 @@ static bool fill_table(gm_map_table *table, const gm_table_key *key, int n_axes,
             return false;
         memcpy(table->x[a], x[a], (size_t)n[a] * sizeof *x[a]);
     }
-    table->value = gm_calloc((size_t)gm_map_table_size(table), sizeof *table->value);
+    table->value = gm_calloc((size_t)gm_map_value_count(table), sizeof *table->value);
     return table->value != NULL;
 }
 
@@ -115,7 +116,7 @@ gm_status gm_map_add_table(gm_map *map, const gm_table_key *key, int n_axes, con
     gm_map_table table;
     if (status != GM_OK)
         return status;
-    if (!fill_table(&table, key, n_axes, n, x) || !grow(map)) {
+    if (!fill_table(&table, key, gm_map_slices(map), n_axes, n, x) || !grow(map)) {
         clear_table(&table);
         return gm_fail(error, GM_ERR_MEMORY, "no memory for a table of the map");
     }
@@ -135,7 +136,7 @@ gm_status gm_map_set_axes(gm_map *map, int index, const int *n, const double *co
                        "table %s: the order or range of its new axes does not fit",
                        words);
     }
-    if (!fill_table(&made, &table->key, table->n_axes, n, x)) {
+    if (!fill_table(&made, &table->key, table->slices, table->n_axes, n, x)) {
         clear_table(&made);
         return gm_fail(error, GM_ERR_MEMORY, "no memory for a table of the map");
     }
@@ -179,4 +180,39 @@ int gm_map_has_neutral(const gm_map *map, int p)
 int gm_map_table_size(const gm_map_table *table)
 {
     return table->n[0] * gm_map_row_size(table);
+}
+
+int gm_map_value_count(const gm_map_table *table)
+{
+    return table->slices * gm_map_table_size(table);
+}
+
+gm_status gm_map_set_oil(gm_map *map, int n, const double *temperature, gm_error *error)
+{
+    if (n < 2 || n > GM_MAP_MAX_OIL || map->n_tables > 0)
+        return gm_fail(error, GM_ERR_ARGUMENT,
+                       "a map with %d tables cannot have an oil axis of %d temperatures",
+                       map->n_tables, n);
+    if (!gm_map_oil_fits(n, temperature))
+        return gm_fail(error, GM_ERR_ARGUMENT,
+                       "the oil temperatures of a map must increase from above 0 K");
+    map->n_oil = n;
+    memcpy(map->oil, temperature, (size_t)n * sizeof *temperature);
+    memset(map->oil_bend, 0, sizeof map->oil_bend);
+    return GM_OK;
+}
+
+int gm_map_slices(const gm_map *map)
+{
+    return map->n_oil > 1 ? map->n_oil : 1;
+}
+
+int gm_map_usual_slice(const gm_map *map)
+{
+    int nearest = 0;
+    for (int k = 1; k < map->n_oil; k++)
+        if (fabs(map->oil[k] - map->oil_temperature) <
+            fabs(map->oil[nearest] - map->oil_temperature))
+            nearest = k;
+    return nearest;
 }

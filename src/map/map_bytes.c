@@ -33,12 +33,14 @@ static gm_status write_values(const gm_db *db, sqlite3_stmt *put, const gm_map *
     const gm_map_table *table = &map->tables[t];
     const int *n = table->n, size = gm_map_table_size(table);
     gm_status status = GM_OK;
-    for (int m = 0; status == GM_OK && m < size; m++) {
+    for (int m = 0; status == GM_OK && m < gm_map_value_count(table); m++) {
         (void)sqlite3_bind_int(put, 1, t);
-        (void)sqlite3_bind_int(put, 2, m / (n[1] * n[2]));
+        (void)sqlite3_bind_int(put, 2, m % size / (n[1] * n[2]));
         (void)sqlite3_bind_int(put, 3, m / n[2] % n[1]);
         (void)sqlite3_bind_int(put, 4, m % n[2]);
         (void)sqlite3_bind_double(put, 5, table->value[m]);
+        if (map->n_oil > 0)
+            (void)sqlite3_bind_int(put, 6, m / size);
         status = gm_db_step(db, put, error);
     }
     return status;
@@ -47,9 +49,12 @@ static gm_status write_values(const gm_db *db, sqlite3_stmt *put, const gm_map *
 static gm_status write_all_values(const gm_db *db, const gm_map *map, gm_error *error)
 {
     sqlite3_stmt *put = NULL;
-    gm_status status = gm_db_prepare(
-        db, "INSERT INTO value (map_table, i, j, k, value) VALUES (?, ?, ?, ?, ?)", &put,
-        error);
+    const char *sql =
+        map->n_oil > 0
+            ? "INSERT INTO value (map_table, i, j, k, value, oil) "
+              "VALUES (?, ?, ?, ?, ?, ?)"
+            : "INSERT INTO value (map_table, i, j, k, value) VALUES (?, ?, ?, ?, ?)";
+    gm_status status = gm_db_prepare(db, sql, &put, error);
     for (int t = 0; status == GM_OK && t < map->n_tables; t++)
         status = write_values(db, put, map, t, error);
     (void)sqlite3_finalize(put);
@@ -61,7 +66,9 @@ static gm_status write_all(const gm_db *db, const gm_map *map, gm_error *error)
 {
     gm_status status = gm_db_run(db, "PRAGMA secure_delete = ON; BEGIN", error);
     if (status == GM_OK)
-        status = gm_schema_create(db, error);
+        status = gm_schema_create(db, gm_map_format(map), error);
+    if (status == GM_OK)
+        status = gm_frame_write_oil(db, map, error);
     if (status == GM_OK)
         status = gm_frame_write_tables(db, map, error);
     if (status == GM_OK)

@@ -55,6 +55,20 @@ static gm_status check_table_frame(const gm_map *map, const gm_map_table *table,
                             : "axes: their number, order or range does not fit");
 }
 
+static gm_status check_oil(const gm_map *map, gm_error *error)
+{
+    bool fits = map->n_oil >= 0 && map->n_oil != 1 && map->n_oil <= GM_MAP_MAX_OIL;
+    fits = fits && (map->n_oil == 0 || gm_map_oil_fits(map->n_oil, map->oil));
+    for (int k = 0; fits && k < map->n_oil; k++)
+        fits = map->oil_bend[k] > -1.0 && isfinite(map->oil_bend[k]);
+    for (int t = 0; fits && t < map->n_tables; t++)
+        fits = map->tables[t].slices == gm_map_slices(map);
+    return fits ? GM_OK
+                : gm_fail(error, GM_ERR_FORMAT,
+                          "the map's oil temperatures are not two or more that increase, "
+                          "with bends above -1 and a slice of every table for each");
+}
+
 gm_status gm_map_check_frame(const gm_map *map, gm_error *error)
 {
     gm_status status = GM_OK;
@@ -67,6 +81,8 @@ gm_status gm_map_check_frame(const gm_map *map, gm_error *error)
         strcmp(map->paths[0].name, map->paths[1].name) == 0)
         status = gm_fail(error, GM_ERR_FORMAT, "both paths of the map are named %s",
                          map->paths[0].name);
+    if (status == GM_OK)
+        status = check_oil(map, error);
     for (int t = 0; status == GM_OK && t < map->n_tables; t++)
         status = check_table_frame(map, &map->tables[t], error);
     return status;
@@ -124,7 +140,7 @@ static gm_status check_path(const gm_map *map, const gm_map_path *path, gm_error
 static gm_status check_values(const gm_map *map, const gm_map_table *table,
                               gm_error *error)
 {
-    int size = gm_map_table_size(table);
+    int size = gm_map_value_count(table);
     for (int i = 0; i < size; i++) {
         char words[GM_KEY_TEXT];
         if (isfinite(table->value[i]))

@@ -16,12 +16,17 @@ GM_NODISCARD gm_status gm_frame_write_paths(const gm_db *db, const gm_map *map,
 GM_NODISCARD gm_status gm_frame_write_tables(const gm_db *db, const gm_map *map,
                                              gm_error *error);
 
+/** The oil axis, if there is one. */
+GM_NODISCARD gm_status gm_frame_write_oil(const gm_db *db, const gm_map *map,
+                                          gm_error *error);
+
 /** What seals a finished map: provenance, meta data, paths and gears, the state. */
 GM_NODISCARD gm_status gm_frame_write_head(const gm_db *db, const gm_map *map,
                                            gm_error *error);
 
-/** Paths, and axes with keys, into an empty *map. file_size bounds what may be allocated:
+/** Oil axis, paths, and axes with keys, into an empty *map, in this order. file_size bounds what may be allocated:
  *  each number takes more than a byte of the file. GM_ERR_FORMAT: damaged. */
+GM_NODISCARD gm_status gm_frame_read_oil(const gm_db *db, gm_map *map, gm_error *error);
 GM_NODISCARD gm_status gm_frame_read_paths(const gm_db *db, gm_map *map, gm_error *error);
 GM_NODISCARD gm_status gm_frame_read_tables(const gm_db *db, long long file_size,
                                             gm_map *map, gm_error *error);

@@ -79,6 +79,34 @@ static gm_status read_path(const gm_db *db, sqlite3_stmt *rows, gm_map *map,
     return status;
 }
 
+gm_status gm_frame_read_oil(const gm_db *db, gm_map *map, gm_error *error)
+{
+    sqlite3_stmt *rows;
+    bool row = true;
+    int n = 0;
+    double at[GM_MAP_MAX_OIL], bend[GM_MAP_MAX_OIL];
+    gm_status status = gm_db_prepare(
+        db, "SELECT oil, temperature, bend FROM oil ORDER BY oil", &rows, error);
+    if (status == GM_OK)
+        status = gm_db_next(db, rows, &row, error);
+    while (status == GM_OK && row) {
+        int k;
+        if (n >= GM_MAP_MAX_OIL || !gm_column_int(rows, 0, n, n, &k) ||
+            !gm_column_real(rows, 1, &at[n]) || !gm_column_real(rows, 2, &bend[n])) {
+            status = wrong(db, "oil", error);
+        } else {
+            n++;
+            status = gm_db_next(db, rows, &row, error);
+        }
+    }
+    (void)sqlite3_finalize(rows);
+    if (status == GM_OK && gm_map_set_oil(map, n, at, NULL) != GM_OK)
+        status = wrong(db, "oil", error);
+    if (status == GM_OK)
+        memcpy(map->oil_bend, bend, (size_t)n * sizeof *bend);
+    return status;
+}
+
 gm_status gm_frame_read_paths(const gm_db *db, gm_map *map, gm_error *error)
 {
     sqlite3_stmt *rows;
@@ -218,11 +246,11 @@ static bool column_key(sqlite3_stmt *rows, gm_table_key *key)
 }
 
 /* The axes a row of map_table names: number, nodes and whether they may be. */
-static bool column_axes(const axis_list *list, sqlite3_stmt *rows,
+static bool column_axes(const axis_list *list, sqlite3_stmt *rows, int slices,
                         const gm_symbol_rule *rule, int n[GM_MAX_AXES],
                         const double *x[GM_MAX_AXES])
 {
-    long long size = 1;
+    long long size = slices;
     for (int a = 0; a < GM_MAX_AXES; a++) {
         int axis;
         if (a >= rule->n_axes) {
@@ -250,12 +278,12 @@ static gm_status read_table(axis_list *list, sqlite3_stmt *rows, gm_map *map,
     gm_table_key key;
     gm_error detail = {0};
     if (!gm_column_int(rows, 0, next, next, &id) || !column_key(rows, &key) ||
-        !column_axes(list, rows, gm_symbol_rule_of(key.symbol), n, x))
+        !column_axes(list, rows, gm_map_slices(map), gm_symbol_rule_of(key.symbol), n, x))
         return wrong(list->db, "map_table", error);
     gm_status status = gm_map_add_table(map, &key, gm_symbol_rule_of(key.symbol)->n_axes,
                                         n, x, &index, &detail);
     if (status == GM_OK)
-        list->budget -= gm_map_table_size(&map->tables[index]);
+        list->budget -= gm_map_value_count(&map->tables[index]);
     else if (status == GM_ERR_MEMORY)
         status = gm_fail(error, status, "no memory to read %s", list->db->path);
     else

@@ -40,6 +40,22 @@ static gm_status write_gear(const gm_db *db, sqlite3_stmt *put, int p,
     return gm_db_step(db, put, error);
 }
 
+gm_status gm_frame_write_oil(const gm_db *db, const gm_map *map, gm_error *error)
+{
+    sqlite3_stmt *put = NULL;
+    if (map->n_oil == 0)
+        return GM_OK;
+    gm_status status = gm_db_prepare(db, "INSERT INTO oil VALUES (?, ?, ?)", &put, error);
+    for (int k = 0; status == GM_OK && k < map->n_oil; k++) {
+        (void)sqlite3_bind_int(put, 1, k);
+        (void)sqlite3_bind_double(put, 2, map->oil[k]);
+        (void)sqlite3_bind_double(put, 3, map->oil_bend[k]);
+        status = gm_db_step(db, put, error);
+    }
+    (void)sqlite3_finalize(put);
+    return status;
+}
+
 gm_status gm_frame_write_paths(const gm_db *db, const gm_map *map, gm_error *error)
 {
     sqlite3_stmt *put_path = NULL, *put_gear = NULL;

@@ -34,7 +34,7 @@ static const gm_map_table **sorted_tables(const gm_map *map)
 static void add_head(gm_sha256 *sum, const gm_map *map)
 {
     gm_sha256_text(sum, FIRST_WORDS);
-    gm_sha256_int(sum, GM_MAP_FORMAT);
+    gm_sha256_int(sum, gm_map_format(map));
     gm_sha256_text(sum, map->name);
     gm_sha256_text(sum, map->title);
     gm_sha256_text(sum, map->input_sha256);
@@ -78,6 +78,15 @@ static void add_doubles(gm_sha256 *sum, int n, const double *x)
         gm_sha256_double(sum, x[i]);
 }
 
+/* A map without the axis has the hash that it had before there were axes. */
+static void add_oil(gm_sha256 *sum, const gm_map *map)
+{
+    if (map->n_oil == 0)
+        return;
+    add_doubles(sum, map->n_oil, map->oil);
+    add_doubles(sum, map->n_oil - 1, map->oil_bend);
+}
+
 static void add_table(gm_sha256 *sum, const gm_map_table *table)
 {
     gm_sha256_text(sum, gm_symbol_name(table->key.symbol));
@@ -90,7 +99,7 @@ static void add_table(gm_sha256 *sum, const gm_map_table *table)
     gm_sha256_int(sum, table->n_axes);
     for (int a = 0; a < table->n_axes; a++)
         add_doubles(sum, table->n[a], table->x[a]);
-    add_doubles(sum, gm_map_table_size(table), table->value);
+    add_doubles(sum, gm_map_value_count(table), table->value);
 }
 
 gm_status gm_map_hash(const gm_map *map, char text[65], gm_error *error)
@@ -104,6 +113,7 @@ gm_status gm_map_hash(const gm_map *map, char text[65], gm_error *error)
     add_head(sum, map);
     for (int p = 0; p < map->n_paths; p++)
         add_path(sum, &map->paths[p]);
+    add_oil(sum, map);
     gm_sha256_int(sum, map->n_tables);
     for (int t = 0; t < map->n_tables; t++)
         add_table(sum, sorted[t]);

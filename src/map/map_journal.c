@@ -47,7 +47,7 @@ static void drop_negative_zeros(gm_map *map)
 {
     for (int t = 0; t < map->n_tables; t++) {
         gm_map_table *table = &map->tables[t];
-        for (int m = 0; m < gm_map_table_size(table); m++)
+        for (int m = 0; m < gm_map_value_count(table); m++)
             if (table->value[m] == 0.0)
                 table->value[m] = 0.0;
     }

@@ -117,7 +117,7 @@ static gm_status write_frame(const gm_journal *journal, const gm_map *map,
     const gm_db *db = &journal->db;
     gm_status status = gm_meta_sweep(map, journal->record, sweep, error);
     if (status == GM_OK)
-        status = gm_schema_create(db, error);
+        status = gm_schema_create(db, gm_map_format(map), error);
     if (status == GM_OK)
         status = gm_db_run(db, block_table, error);
     if (status == GM_OK)
@@ -215,10 +215,10 @@ static gm_status resume(gm_journal *journal, const gm_map *map, gm_error *error)
     gm_status status = gm_meta_sweep(map, journal->record, sweep, error);
     if (status == GM_OK)
         status = gm_db_integer(db, "PRAGMA user_version", &version, error);
-    if (status == GM_OK && version != GM_MAP_FORMAT)
+    if (status == GM_OK && version != gm_map_format(map))
         return gm_fail(error, GM_ERR_FORMAT, "another format");
     if (status == GM_OK)
-        status = gm_schema_check(db, error);
+        status = gm_schema_check(db, gm_map_format(map), error);
     if (status == GM_OK)
         status = gm_meta_get(db, GM_META_SWEEP, sizeof stored, stored, error);
     if (status == GM_OK && strcmp(sweep, stored) != 0)

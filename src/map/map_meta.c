@@ -2,6 +2,7 @@
 #include "map/map_meta.h"
 
 #include "base/sha256.h"
+#include "map/map_rules.h"
 
 #include <string.h>
 
@@ -139,7 +140,7 @@ gm_status gm_meta_sweep(const gm_map *map, size_t record, char text[65], gm_erro
     gm_sha256 *sum = gm_sha256_create();
     if (!sum)
         return gm_fail(error, GM_ERR_MEMORY, "no memory to hash the sweep");
-    gm_sha256_int(sum, GM_MAP_FORMAT);
+    gm_sha256_int(sum, gm_map_format(map));
     gm_sha256_text(sum, map->tool_version);
     gm_sha256_text(sum, map->input_sha256);
     gm_sha256_text(sum, map->options);
@@ -151,6 +152,8 @@ gm_status gm_meta_sweep(const gm_map *map, size_t record, char text[65], gm_erro
             gm_sha256_int(sum, map->paths[p].gears[g].number);
     }
     gm_sha256_int(sum, (long long)record);
+    for (int k = 0; k < map->n_oil; k++)
+        gm_sha256_double(sum, map->oil[k]);
     gm_sha256_finish(sum, text);
     gm_sha256_destroy(sum);
     return GM_OK;

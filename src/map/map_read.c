@@ -32,7 +32,8 @@ static gm_status check_file(const char *path, long long *size, gm_error *error)
 }
 
 /* Whose file is it, of which version, and is all of it there? */
-static gm_status check_header(const gm_db *db, long long size, gm_error *error)
+static gm_status check_header(const gm_db *db, long long size, int *format,
+                              gm_error *error)
 {
     sqlite3_int64 application = 0, version = 0, pages = 0, page_size = 0;
     gm_status status = gm_db_integer(db, "PRAGMA application_id", &application, error);
@@ -41,11 +42,12 @@ static gm_status check_header(const gm_db *db, long long size, gm_error *error)
     if (status == GM_OK && application != GM_MAP_APPLICATION)
         return gm_fail(error, GM_ERR_FORMAT,
                        "%s is not a map: it is an SQLite file of another kind", db->path);
-    if (status == GM_OK && version != GM_MAP_FORMAT)
+    if (status == GM_OK && version != GM_MAP_FORMAT && version != GM_MAP_FORMAT_ONE_OIL)
         return gm_fail(error, GM_ERR_FORMAT,
                        "%s is a map of format %d, but this version of Gearmap reads "
-                       "format %d",
-                       db->path, (int)version, GM_MAP_FORMAT);
+                       "formats %d and %d",
+                       db->path, (int)version, GM_MAP_FORMAT_ONE_OIL, GM_MAP_FORMAT);
+    *format = (int)version;
     if (status == GM_OK)
         status = gm_db_integer(db, "PRAGMA page_size", &page_size, error);
     if (status == GM_OK)
@@ -76,15 +78,17 @@ static gm_status read_values(const gm_db *db, sqlite3_stmt *rows, int t,
 {
     int size = gm_map_table_size(table), row_size = gm_map_row_size(table);
     gm_status status = GM_OK;
-    for (int m = 0; status == GM_OK && m < size; m++) {
-        int i = m / row_size, j = m % row_size / table->n[2], k = m % table->n[2], any;
+    for (int m = 0; status == GM_OK && m < gm_map_value_count(table); m++) {
+        int oil = m / size, i = m % size / row_size, j = m % row_size / table->n[2],
+            k = m % table->n[2], any;
         bool row = false;
         status = gm_db_next(db, rows, &row, error);
         if (status == GM_OK &&
             !(row && gm_column_int(rows, 0, t, t, &any) &&
               gm_column_int(rows, 1, i, i, &any) && gm_column_int(rows, 2, j, j, &any) &&
               gm_column_int(rows, 3, k, k, &any) &&
-              gm_column_real(rows, 4, &table->value[m])))
+              gm_column_real(rows, 4, &table->value[m]) &&
+              gm_column_int(rows, 5, oil, oil, &any)))
             status = gm_db_damaged(db, "a value is missing or wrong", error);
     }
     return status;
@@ -94,9 +98,11 @@ static gm_status read_all_values(const gm_db *db, gm_map *map, gm_error *error)
 {
     sqlite3_stmt *rows;
     bool more = false;
-    gm_status status = gm_db_prepare(
-        db, "SELECT map_table, i, j, k, value FROM value ORDER BY map_table, i, j, k",
-        &rows, error);
+    const char *sql = map->n_oil > 0 ? "SELECT map_table, i, j, k, value, oil FROM value "
+                                       "ORDER BY map_table, oil, i, j, k"
+                                     : "SELECT map_table, i, j, k, value, 0 FROM value "
+                                       "ORDER BY map_table, i, j, k";
+    gm_status status = gm_db_prepare(db, sql, &rows, error);
     for (int t = 0; status == GM_OK && t < map->n_tables; t++)
         status = read_values(db, rows, t, &map->tables[t], error);
     if (status == GM_OK)
@@ -127,13 +133,16 @@ static gm_status read_content(const gm_db *db, long long size, gm_map *map,
                               gm_error *error)
 {
     gm_error detail = {0};
-    gm_status status = check_header(db, size, error);
+    int format = 0;
+    gm_status status = check_header(db, size, &format, error);
     if (status == GM_OK)
-        status = gm_schema_check(db, error);
+        status = gm_schema_check(db, format, error);
     if (status == GM_OK)
         status = check_state(db, error);
     if (status == GM_OK)
         status = gm_meta_read(db, map, error);
+    if (status == GM_OK && format != GM_MAP_FORMAT_ONE_OIL)
+        status = gm_frame_read_oil(db, map, error);
     if (status == GM_OK)
         status = gm_frame_read_paths(db, map, error);
     if (status == GM_OK)

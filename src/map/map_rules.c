@@ -163,6 +163,16 @@ static bool increasing(const double *x, int n)
     return true;
 }
 
+int gm_map_format(const gm_map *map)
+{
+    return map->n_oil > 0 ? GM_MAP_FORMAT : GM_MAP_FORMAT_ONE_OIL;
+}
+
+bool gm_map_oil_fits(int n, const double *temperature)
+{
+    return increasing(temperature, n) && temperature[0] > 0.0;
+}
+
 bool gm_map_axes_fit(gm_symbol symbol, int n_axes, const int *n, const double *const *x)
 {
     const gm_symbol_rule *rule = gm_symbol_rule_of(symbol);

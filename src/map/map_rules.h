@@ -50,6 +50,12 @@ bool gm_map_key_fits(const gm_table_key *key, int n_paths);
  */
 bool gm_map_axes_fit(gm_symbol symbol, int n_axes, const int *n, const double *const *x);
 
+/** True when oil temperatures [K] are numbers that increase from above zero. */
+bool gm_map_oil_fits(int n, const double *temperature);
+
+/** Version of the schema that a map is written in. */
+int gm_map_format(const gm_map *map);
+
 /** Names, numbers of gears, keys and axes: what must hold before a sweep begins. */
 GM_NODISCARD gm_status gm_map_check_frame(const gm_map *map, gm_error *error);
 

@@ -74,6 +74,10 @@ static const schema_table tables[] = {
              "  axis_2 INTEGER REFERENCES axis,\n"
              "  unit TEXT NOT NULL CHECK (unit = 'N.m')\n"
              ")"},
+};
+
+/* Values of format 3; and those of format 4, with the temperatures of their slices. */
+static const schema_table one_oil[] = {
     {"value", "CREATE TABLE value (\n"
              "  map_table INTEGER NOT NULL REFERENCES map_table,\n"
              "  i INTEGER NOT NULL " IS_INDEX("i") ",\n"
@@ -84,20 +88,46 @@ static const schema_table tables[] = {
              ") WITHOUT ROWID"},
 };
 
+static const schema_table oil_axis[] = {
+    {"oil", "CREATE TABLE oil (\n"
+             "  oil INTEGER PRIMARY KEY,\n"
+             "  temperature REAL NOT NULL CHECK (typeof(temperature) = 'real'\n"
+             "    AND temperature > 0),\n"
+             "  bend REAL NOT NULL CHECK (typeof(bend) = 'real' AND bend > -1)\n"
+             ")"},
+    {"value", "CREATE TABLE value (\n"
+             "  map_table INTEGER NOT NULL REFERENCES map_table,\n"
+             "  oil INTEGER NOT NULL REFERENCES oil,\n"
+             "  i INTEGER NOT NULL " IS_INDEX("i") ",\n"
+             "  j INTEGER NOT NULL " IS_INDEX("j") ",\n"
+             "  k INTEGER NOT NULL " IS_INDEX("k") ",\n"
+             "  value REAL NOT NULL " IS_REAL("value") ",\n"
+             "  PRIMARY KEY (map_table, oil, i, j, k)\n"
+             ") WITHOUT ROWID"},
+};
+
 #define RPM(x) x ".x * 9.54929658551372"
-#define VALUES "FROM map_table t JOIN value v ON v.map_table = t.id"
+#define VALUES "FROM map_table t JOIN v_value v ON v.map_table = t.id"
 #define AXIS(a, axis, index) \
     " JOIN axis_value " a " ON " a ".axis = t." axis " AND " a ".i = v." index
 #define PATH " JOIN path p ON p.path = t.path"
 #define GEAR "CASE t.path WHEN 0 THEN t.gear_0 ELSE t.gear_1 END AS gear"
 #define SYMBOL(s) " WHERE t.symbol = '" s "'"
 #define META(key) "(SELECT value FROM meta WHERE key = '" key "')"
+#define OIL "v.oil_degC"
 #define DRAG_VIEW(view, symbol, column) \
     "CREATE VIEW " view " AS SELECT p.name AS path,\n" \
     "  t.direction_0 AS path_direction, t.direction_1 AS output_direction,\n" \
     "  " RPM("a") " AS path_speed_rpm, " RPM("b") " AS output_speed_rpm,\n" \
-    "  v.value AS " column "\n" \
+    "  v.value AS " column ", " OIL "\n" \
     VALUES PATH AXIS("a", "axis_0", "i") AXIS("b", "axis_1", "j") SYMBOL(symbol)
+
+static const char one_oil_values[] =
+    "CREATE VIEW v_value AS SELECT map_table, i, j, k, value,\n"
+    "  " META("oil_temperature") " - 273.15 AS oil_degC FROM value";
+static const char oil_axis_values[] =
+    "CREATE VIEW v_value AS SELECT v.map_table, v.i, v.j, v.k, v.value,\n"
+    "  o.temperature - 273.15 AS oil_degC FROM value v JOIN oil o ON o.oil = v.oil";
 
 static const char *const views[] = {
     "CREATE VIEW v_map AS SELECT " META("name") " AS name, " META("title") " AS title,\n"
@@ -131,7 +161,7 @@ static const char *const views[] = {
 
     "CREATE VIEW v_parasitic_loss AS SELECT t.gear_0, t.gear_1,\n"
     "  t.direction_0 AS output_direction, " RPM("a") " AS output_speed_rpm,\n"
-    "  v.value AS loss_torque_Nm\n"
+    "  v.value AS loss_torque_Nm, " OIL "\n"
     VALUES AXIS("a", "axis_0", "i") SYMBOL("parasitic_loss"),
 
     "CREATE VIEW v_load_loss AS SELECT p.name AS path, " GEAR ",\n"
@@ -139,12 +169,12 @@ static const char *const views[] = {
     "  v.value AS loss_torque_Nm,\n"
     "  CASE WHEN b.x > 0 THEN 'driving' WHEN b.x < 0 THEN 'driven' END AS power_flow,\n"
     "  CASE WHEN b.x > 0 THEN 1 - v.value / b.x\n"
-    "       WHEN b.x < 0 THEN b.x / (b.x - v.value) END AS efficiency\n"
+    "       WHEN b.x < 0 THEN b.x / (b.x - v.value) END AS efficiency, " OIL "\n"
     VALUES PATH AXIS("a", "axis_0", "i") AXIS("b", "axis_1", "j") SYMBOL("load_loss"),
 
     "CREATE VIEW v_both_loaded AS SELECT t.gear_0, t.gear_1,\n"
     "  t.direction_0 AS output_direction, " RPM("a") " AS output_speed_rpm,\n"
-    "  b.x AS torque_0_Nm, c.x AS torque_1_Nm, v.value AS correction_torque_Nm\n"
+    "  b.x AS torque_0_Nm, c.x AS torque_1_Nm, v.value AS correction_torque_Nm, " OIL "\n"
     VALUES AXIS("a", "axis_0", "i") AXIS("b", "axis_1", "j") AXIS("c", "axis_2", "k")
     SYMBOL("both_loaded"),
 
@@ -153,11 +183,11 @@ static const char *const views[] = {
 
     "CREATE VIEW v_line_jump AS SELECT p.name AS path, t.line_ratio,\n"
     "  t.direction_0 AS output_direction, " RPM("a") " AS output_speed_rpm,\n"
-    "  v.value AS jump_torque_Nm\n"
+    "  v.value AS jump_torque_Nm, " OIL "\n"
     VALUES PATH AXIS("a", "axis_0", "i") SYMBOL("line_jump"),
 
     "CREATE VIEW v_coupling AS SELECT " RPM("a") " AS relative_speed_rpm,\n"
-    "  v.value AS coupling_torque_Nm\n"
+    "  v.value AS coupling_torque_Nm, " OIL "\n"
     VALUES AXIS("a", "axis_0", "i") SYMBOL("coupling"),
 };
 // clang-format on
@@ -165,15 +195,35 @@ static const char *const views[] = {
 #define N_TABLES (sizeof tables / sizeof *tables)
 #define N_VIEWS (sizeof views / sizeof *views)
 
-gm_status gm_schema_create(const gm_db *db, gm_error *error)
+/* What a format has of its own. */
+typedef struct own_parts {
+    int n;
+    const schema_table *tables; /* [n] */
+    const char *values;         /* the view of all values */
+} own_parts;
+
+static own_parts parts_of(int format)
 {
+    return format == GM_MAP_FORMAT_ONE_OIL
+               ? (own_parts){sizeof one_oil / sizeof *one_oil, one_oil, one_oil_values}
+               : (own_parts){sizeof oil_axis / sizeof *oil_axis, oil_axis,
+                             oil_axis_values};
+}
+
+gm_status gm_schema_create(const gm_db *db, int format, gm_error *error)
+{
+    const own_parts own = parts_of(format);
     char pragma[96];
     (void)snprintf(pragma, sizeof pragma,
                    "PRAGMA application_id = %d; PRAGMA user_version = %d",
-                   GM_MAP_APPLICATION, GM_MAP_FORMAT);
+                   GM_MAP_APPLICATION, format);
     gm_status status = gm_db_run(db, pragma, error);
     for (size_t t = 0; status == GM_OK && t < N_TABLES; t++)
         status = gm_db_run(db, tables[t].sql, error);
+    for (int t = 0; status == GM_OK && t < own.n; t++)
+        status = gm_db_run(db, own.tables[t].sql, error);
+    if (status == GM_OK)
+        status = gm_db_run(db, own.values, error);
     for (size_t v = 0; status == GM_OK && v < N_VIEWS; v++)
         status = gm_db_run(db, views[v], error);
     return status;
@@ -196,14 +246,17 @@ static gm_status check_table(const gm_db *db, sqlite3_stmt *find,
     return status;
 }
 
-gm_status gm_schema_check(const gm_db *db, gm_error *error)
+gm_status gm_schema_check(const gm_db *db, int format, gm_error *error)
 {
+    const own_parts own = parts_of(format);
     sqlite3_stmt *find;
     gm_status status = gm_db_prepare(
         db, "SELECT sql FROM sqlite_master WHERE type = 'table' AND name = ?", &find,
         error);
     for (size_t t = 0; status == GM_OK && t < N_TABLES; t++)
         status = check_table(db, find, &tables[t], error);
+    for (int t = 0; status == GM_OK && t < own.n; t++)
+        status = check_table(db, find, &own.tables[t], error);
     (void)sqlite3_finalize(find);
     return status;
 }

@@ -14,7 +14,7 @@ struct gm_map_view {
     gm_reduced_map reduced;
     gm_gear *gears[GM_MAX_PATHS];
     gm_drag_line *lines[GM_MAX_PATHS];
-    gm_real *pins[GM_MAX_PATHS]; /* [n_gears][2][n], n nodes of the drag's speed axes */
+    gm_real *pins[GM_MAX_PATHS]; /* [n_gears][2][slices][n], n of the drag's speed axes */
     gm_configuration *configurations;
 };
 
@@ -28,8 +28,23 @@ typedef struct builder {
 } builder;
 
 /* A table that is zero everywhere: one node, so there is no range to leave. */
-static const gm_real zero_node[1] = {0.0};
+static const gm_real zero_node[GM_MAP_MAX_OIL] = {0.0};
 static const gm_table1 zero_table = {{1, zero_node}, zero_node, 0};
+
+/* A slice of a table as a table of its own. */
+static gm_table1 slice1(const gm_table1 *t, int k)
+{
+    gm_table1 slice = *t;
+    slice.value = t->value ? t->value + (size_t)k * (size_t)t->x.n : NULL;
+    return slice;
+}
+
+static gm_table2 slice2(const gm_table2 *t, int k)
+{
+    gm_table2 slice = *t;
+    slice.value = t->value + (size_t)k * (size_t)t->x.n * (size_t)t->y.n;
+    return slice;
+}
 
 static gm_axis axis_of(const gm_map_table *table, int a)
 {
@@ -134,18 +149,21 @@ static gm_status build_drag(const builder *b, int p, gm_symbol symbol,
 }
 
 /* N of path p where it turns with its gear: the table and every line's jump, of its own
- * line the mean of both sides. dir: of the path; w: |w_p|, at 0 the limit. */
-static double drag_in_gear(const gm_path *path, const gm_gear *gear, int dir, double w)
+ * line the mean of both sides. dir: of the path; w: |w_p|, at 0 the limit; k: slice. */
+static double drag_in_gear(const gm_path *path, const gm_gear *gear, int dir, int k,
+                           double w)
 {
     const double sign = dir == GM_BACKWARD ? -1.0 : 1.0, w_o = w / fabs(gear->ratio);
     const int dir_o = gear->ratio < 0.0 ? 1 - dir : dir;
+    const gm_table2 drag = slice2(&path->drag[dir][dir_o], k);
     gm_cell2 cell = {0};
-    double sum = gm_table2_at(&path->drag[dir][dir_o], 1, &cell, w, w_o).value;
+    double sum = gm_table2_at(&drag, 1, &cell, w, w_o).value;
     for (int l = 0; l < path->n_lines; l++) {
         const gm_drag_line *line = &path->lines[l];
         const double ahead = 1.0 - line->ratio / gear->ratio;
+        const gm_table1 of = slice1(&line->jump[dir_o], k);
         gm_cell1 cell_1 = {0};
-        double jump = gm_table1_at(&line->jump[dir_o], 1, &cell_1, w_o).value;
+        double jump = gm_table1_at(&of, 1, &cell_1, w_o).value;
         if (fabs(ahead) > SAME_RATIO)
             sum += ahead > 0.0 ? sign * jump / 2.0 : -sign * jump / 2.0;
     }
@@ -157,8 +175,9 @@ static gm_status build_pins(const builder *b, int p)
 {
     const gm_path *path = &b->view->reduced.path[p];
     gm_gear *gears = b->view->gears[p];
-    size_t n[2] = {(size_t)path->drag[0][0].x.n, (size_t)path->drag[1][1].x.n};
-    gm_real *value = gm_calloc((size_t)path->n_gears * (n[0] + n[1]), sizeof *value);
+    const int slices = gm_map_slices(b->map);
+    size_t n = (size_t)path->drag[0][0].x.n + (size_t)path->drag[1][1].x.n;
+    gm_real *value = gm_calloc((size_t)path->n_gears * (size_t)slices * n, sizeof *value);
     b->view->pins[p] = value;
     if (!value)
         return gm_fail(b->error, GM_ERR_MEMORY, "no memory to view the map");
@@ -166,8 +185,9 @@ static gm_status build_pins(const builder *b, int p)
         for (int d = 0; d < 2; d++) {
             const gm_axis *x = &path->drag[d][d].x;
             gears[g].pin[d] = (gm_table1){*x, value, 0};
-            for (int i = 0; i < x->n; i++)
-                *value++ = fmax(0.0, drag_in_gear(path, &gears[g], d, x->x[i]));
+            for (int i = 0; i < slices * x->n; i++)
+                *value++ =
+                    fmax(0.0, drag_in_gear(path, &gears[g], d, i / x->n, x->x[i % x->n]));
         }
     return GM_OK;
 }
@@ -259,17 +279,19 @@ static gm_status build_configurations(const builder *b)
     return status;
 }
 
-static double value_at(const gm_table1 *t, double x)
+/* In slice k. */
+static double value_at(const gm_table1 *t, int k, double x)
 {
+    const gm_table1 slice = slice1(t, k);
     gm_cell1 cell = {0};
     if (!t->value)
         return 0.0;
-    return gm_table1_at(t, 1, &cell, x).value;
+    return gm_table1_at(&slice, 1, &cell, x).value;
 }
 
 /* What the pins of a configuration take from the output at w_o in direction d. */
 static double pins_of(const gm_reduced_map *reduced, const gm_configuration *c, int d,
-                      double w_o)
+                      int k, double w_o)
 {
     double sum = 0.0;
     for (int p = 0; p < reduced->n_paths; p++) {
@@ -277,7 +299,7 @@ static double pins_of(const gm_reduced_map *reduced, const gm_configuration *c, 
             continue;
         const gm_gear *gear = &reduced->path[p].gears[c->gear[p]];
         double r = fabs(gear->ratio);
-        sum += r * value_at(&gear->pin[gear->ratio < 0.0 ? 1 - d : d], r * w_o);
+        sum += r * value_at(&gear->pin[gear->ratio < 0.0 ? 1 - d : d], k, r * w_o);
     }
     return sum;
 }
@@ -291,14 +313,15 @@ static void limit_pin(const builder *b, int p, int g, int d)
     const gm_axis *x = &gear->pin[d].x;
     gm_real *value = b->view->pins[p] + (gear->pin[d].value - b->view->pins[p]);
     const int d_o = gear->ratio < 0.0 ? 1 - d : d;
-    for (int i = 0; i < x->n; i++)
+    for (int i = 0; i < gm_map_slices(b->map) * x->n; i++)
         for (int c = 0; c < reduced->n_configurations; c++) {
             const gm_configuration *at = &reduced->configurations[c];
-            double w_o = x->x[i] / fabs(gear->ratio);
+            const int k = i / x->n;
+            double w_o = x->x[i % x->n] / fabs(gear->ratio);
             if (at->gear[p] != g || !at->parasitic[d_o].value)
                 continue;
-            double most = value_at(&at->parasitic[d_o], w_o);
-            double sum = pins_of(reduced, at, d_o, w_o);
+            double most = value_at(&at->parasitic[d_o], k, w_o);
+            double sum = pins_of(reduced, at, d_o, k, w_o);
             if (sum > most)
                 value[i] *= fmax(0.0, most) / sum;
         }
@@ -322,6 +345,7 @@ static gm_status build(const builder *b)
     reduced->n_paths = b->map->n_paths;
     reduced->inertia_output = b->map->inertia_output;
     reduced->oil_temperature = b->map->oil_temperature;
+    reduced->oil = (gm_oil_axis){b->map->n_oil, b->map->oil, b->map->oil_bend};
     if (coupling)
         reduced->coupling = table1_of(coupling);
     for (int p = 0; status == GM_OK && p < reduced->n_paths; p++)

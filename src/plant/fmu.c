@@ -134,7 +134,8 @@ void gm_fmu_close(gm_fmu *fmu)
 gm_fmu_origin gm_fmu_read_origin(const gm_fmu *fmu)
 {
     const fmu_description *d = &fmu->description;
-    return (gm_fmu_origin){d->source_sha256, d->map_hash, d->oil_temperature, d->guid};
+    return (gm_fmu_origin){d->source_sha256, d->map_hash, d->oil_temperature,
+                           d->n_oil,         d->oil,      d->guid};
 }
 
 gm_status gm_fmu_hash_library(const gm_fmu *fmu, char text[65], gm_error *error)

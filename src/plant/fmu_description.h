@@ -65,6 +65,8 @@ typedef struct fmu_state {
     int *dependencies;  /* [n_dependencies] states that the rate depends on */
 } fmu_state;
 
+#define FMU_MAX_OIL 32
+
 typedef struct fmu_description {
     int version;               /* 2 or 3 */
     char *guid;                /* or instantiation token */
@@ -76,6 +78,8 @@ typedef struct fmu_description {
     fmu_state *states;              /* [n_states] */
     char *source_sha256, *map_hash; /* NULL: not stated */
     double oil_temperature;         /* K, NAN: not stated */
+    int n_oil;                      /* 0: no oil axis is stated */
+    double oil[FMU_MAX_OIL];        /* K */
     double speed_max, torque_max;   /* rad/s, N.m at the inputs; NAN: not stated */
     int n_gears;
     fmu_gear *gears; /* [n_gears] */

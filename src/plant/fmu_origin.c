@@ -2,11 +2,14 @@
 #include "plant/fmu_origin.h"
 
 #include "base/alloc.h"
+#include "base/text.h"
 #include "plant/fmu_exchange.h"
 
 #include <libxml/tree.h>
 #include <math.h>
 #include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
 
 /* The annotation of the program that made the component; NULL when another did. */
 static xmlNode *find_origin(xmlNode *root)
@@ -44,6 +47,34 @@ static gm_status read_gears(xmlNode *origin, const char *archive, fmu_descriptio
     return GM_OK;
 }
 
+/* Numbers with a space between them, ascending; what is anything else is no axis. */
+static void read_oil_axis(const char *text, fmu_description *d)
+{
+    int n = 0;
+    for (const char *from = text; n < FMU_MAX_OIL && *from; n++) {
+        char number[40];
+        size_t length = strcspn(from, " ");
+        (void)snprintf(number, sizeof number, "%.*s", (int)(length < 39 ? length : 39),
+                       from);
+        if (!gm_text_to_double(number, &d->oil[n]) ||
+            (n > 0 && !(d->oil[n] > d->oil[n - 1])))
+            return;
+        from += length + (from[length] == ' ');
+    }
+    d->n_oil = n > 1 ? n : 0;
+}
+
+static gm_status find_oil_axis(xmlNode *origin, const char *archive, fmu_description *d,
+                               gm_error *error)
+{
+    char *axis = NULL;
+    gm_status status = gm_fmu_optional(origin, "oilTemperatures", archive, &axis, error);
+    if (axis)
+        read_oil_axis(axis, d);
+    gm_free(axis);
+    return status;
+}
+
 gm_status gm_fmu_origin_read(xmlNode *root, const char *archive, fmu_description *d,
                              gm_error *error)
 {
@@ -54,8 +85,10 @@ gm_status gm_fmu_origin_read(xmlNode *root, const char *archive, fmu_description
     d->oil_temperature = gm_fmu_number(origin, "oilTemperature", (double)NAN);
     d->speed_max = gm_fmu_number(origin, "speedMax", (double)NAN);
     d->torque_max = gm_fmu_number(origin, "torqueMax", (double)NAN);
-    gm_status status =
-        gm_fmu_optional(origin, "descriptionSha256", archive, &d->source_sha256, error);
+    gm_status status = find_oil_axis(origin, archive, d, error);
+    if (status == GM_OK)
+        status = gm_fmu_optional(origin, "descriptionSha256", archive, &d->source_sha256,
+                                 error);
     if (status == GM_OK)
         status = gm_fmu_optional(origin, "mapContentHash", archive, &d->map_hash, error);
     return status == GM_OK ? read_gears(origin, archive, d, error) : status;

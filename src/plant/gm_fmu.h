@@ -28,6 +28,8 @@ typedef struct gm_fmu_origin {
     const char *description_sha256; /* NULL: it does not say */
     const char *map_hash;           /* content hash of the map; NULL: it does not say */
     double oil_temperature;         /* K; NAN: it does not say */
+    int n_oil; /* temperatures of its oil axis, [K]; 0: it has none */
+    const double *oil;
     const char *guid;
 } gm_fmu_origin;
 

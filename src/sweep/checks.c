@@ -109,7 +109,7 @@ gm_status gm_sweep_identify(const gm_plant *plant, gm_map *map, double *deviatio
 static double load_slope(const gm_map_table *t, double *torque)
 {
     double largest = 0.0;
-    for (int i = 0; i < t->n[0]; i++)
+    for (int i = 0; i < t->slices * t->n[0]; i++)
         for (int j = 0; j + 1 < t->n[1]; j++) {
             const double *value = t->value + (long)i * t->n[1] + j;
             double slope = fabs((value[1] - value[0]) / (t->x[1][j + 1] - t->x[1][j]));
@@ -139,7 +139,7 @@ static double both_slope(const gm_map_table *t, int p)
     const double *torque = t->x[1 + p];
     long stride = p == 0 ? t->n[2] : 1;
     double largest = 0.0;
-    for (long k = 0; k < gm_map_table_size(t); k++) {
+    for (long k = 0; k < gm_map_value_count(t); k++) {
         long j = p == 0 ? (k / t->n[2]) % t->n[1] : k % t->n[2];
         if (j + 1 < t->n[1 + p])
             largest = fmax(largest, fabs((t->value[k + stride] - t->value[k]) /

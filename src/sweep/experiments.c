@@ -14,6 +14,7 @@ typedef struct place {
     const double *x;
     gm_point_solver *solver;
     gm_error *error;
+    int oil;         /* slice */
     double line_end; /* output speed at which a line has left the range of its path */
     gm_steady_point point;
     gm_steady_result result;
@@ -48,9 +49,14 @@ static void set_gears(place *p)
 
 /* ---- tables of earlier phases, as the reduced gearset will read them ---- */
 
+static const double *slice_of(const place *p, const gm_map_table *t)
+{
+    return t->value + (long)p->oil * gm_map_table_size(t);
+}
+
 static double read1(const place *p, const gm_map_table *t, double x)
 {
-    gm_table1 view = {{t->n[0], t->x[0]}, t->value, p->plan->monotone};
+    gm_table1 view = {{t->n[0], t->x[0]}, slice_of(p, t), p->plan->monotone};
     gm_cell1 cell = {0};
     return gm_table1_at(&view, 1, &cell, x).value;
 }
@@ -70,7 +76,7 @@ static double load_loss(const place *p, int q, double w_o, double torque)
     gm_table_key key = gm_sweep_load_key(q, p->table->key.gear[q], backward);
     const gm_map_table *d = gm_map_find(p->plan->map, &key);
     gm_table2 view = {
-        {d->n[0], d->x[0]}, {d->n[1], d->x[1]}, d->value, p->plan->monotone};
+        {d->n[0], d->x[0]}, {d->n[1], d->x[1]}, slice_of(p, d), p->plan->monotone};
     gm_cell2 cell = {0};
     return fabs(ratio) * gm_table2_at(&view, 1, &cell, fabs(ratio) * w_o, torque).value;
 }
@@ -329,40 +335,55 @@ static void extend_line(place *p)
     p->line_end = p->table->x[0][node];
 }
 
-static void put(const gm_sweep_plan *plan, const gm_unit *unit, int row, int column,
-                const double *x, const gm_sample *sample)
+/* Place of a node in the slice that is measured. */
+static double *value_at(const place *p, int table, int row, int column)
 {
-    gm_map_table *table = &plan->map->tables[unit->table];
-    double *to = &table->value[row * gm_map_row_size(table) + column];
-    *to = sample->value[unit->kind == GM_UNIT_LOAD];
+    gm_map_table *t = &p->plan->map->tables[table];
+    return &t->value[(long)p->oil * gm_map_table_size(t) + row * gm_map_row_size(t) +
+                     column];
+}
+
+static void put(const place *p, const gm_unit *unit, int row, int column,
+                const gm_sample *sample)
+{
+    const gm_table_key *key = &p->table->key;
+    *value_at(p, unit->table, row, column) = sample->value[unit->kind == GM_UNIT_LOAD];
     if (unit->companion < 0)
         return;
-    gm_map_table *companion = &plan->map->tables[unit->companion];
     if (unit->kind == GM_UNIT_DRAG)
-        companion->value[row * gm_map_row_size(companion) + column] = sample->value[1];
-    else if (x[1] == 0.0)
-        companion->value[row] =
-            sample->value[0] * fabs(gm_sweep_ratio(plan->map, table->key.path,
-                                                   table->key.gear[table->key.path]));
+        *value_at(p, unit->companion, row, column) = sample->value[1];
+    else if (p->x[1] == 0.0)
+        *value_at(p, unit->companion, row, 0) =
+            sample->value[0] *
+            fabs(gm_sweep_ratio(p->plan->map, key->path, key->gear[key->path]));
+}
+
+static gm_status fill_row(place *p, const gm_unit *unit, int row)
+{
+    const gm_map_table *t = p->table;
+    double x[GM_MAX_AXES] = {t->x[0][row], 0.0, 0.0};
+    gm_status status = GM_OK;
+    p->x = x;
+    gm_point_solver_choose(p->solver, p->oil);
+    for (int i = 0; i < gm_map_row_size(t) && status == GM_OK; i++) {
+        gm_sample sample = {{0.0}, {0.0}};
+        x[1] = t->n_axes > 1 ? t->x[1][i / t->n[2]] : 0.0;
+        x[2] = t->n_axes > 2 ? t->x[2][i % t->n[2]] : 0.0;
+        status = sample_at(p, unit, &sample);
+        if (status == GM_OK)
+            put(p, unit, row, i, &sample);
+    }
+    return status;
 }
 
 gm_status gm_experiment_row(const gm_sweep_plan *plan, const gm_unit *unit, int row,
                             gm_point_solver *solver, gm_error *error)
 {
     place p = place_of(plan, unit, solver, error);
-    const gm_map_table *t = p.table;
-    double x[GM_MAX_AXES] = {t->x[0][row], 0.0, 0.0};
     gm_status status = GM_OK;
-    p.x = x;
     if (unit->kind == GM_UNIT_LINE)
         extend_line(&p);
-    for (int i = 0; i < gm_map_row_size(t) && status == GM_OK; i++) {
-        gm_sample sample = {{0.0}, {0.0}};
-        x[1] = t->n_axes > 1 ? t->x[1][i / t->n[2]] : 0.0;
-        x[2] = t->n_axes > 2 ? t->x[2][i % t->n[2]] : 0.0;
-        status = sample_at(&p, unit, &sample);
-        if (status == GM_OK)
-            put(plan, unit, row, i, x, &sample);
-    }
+    for (p.oil = 0; p.oil < p.table->slices && status == GM_OK; p.oil++)
+        status = fill_row(&p, unit, row);
     return status;
 }

@@ -27,8 +27,9 @@ typedef struct gm_reduced_answer {
 
 /** The reduced component as verification sees it: the shipped file behind a function. */
 typedef struct gm_reduced_probe {
-    gm_status (*at)(void *self, const gm_steady_point *point, double output_torque,
-                    gm_reduced_answer *answer, gm_error *error);
+    /* oil: temperature, K */
+    gm_status (*at)(void *self, double oil, const gm_steady_point *point,
+                    double output_torque, gm_reduced_answer *answer, gm_error *error);
     void *self;
 } gm_reduced_probe;
 
@@ -36,6 +37,7 @@ typedef struct gm_reduced_probe {
 typedef struct gm_verify_point {
     double speed, torque;     /* of the path, rad/s, N.m */
     double detailed, reduced; /* N.m */
+    double oil;               /* K */
 } gm_verify_point;
 
 /** Errors of one kind of point. Loss torques at the flange of the loaded path (of the
@@ -52,6 +54,7 @@ typedef struct gm_verify_case {
     double worst_speed,
         worst_torque;          /* of the path, where the error is max: rad/s, N.m */
     double worst_output_speed; /* rad/s */
+    double worst_oil;          /* K */
     gm_verify_point *point;    /* [points], owned by the result */
 } gm_verify_case;
 
@@ -84,14 +87,28 @@ GM_NODISCARD gm_status gm_verify_steady(const gm_plant *plant,
                                         const gm_reduced_probe *probe, int points,
                                         uint64_t seed, gm_verify_result *result,
                                         gm_error *error);
-/** The same for a map, by the reduced gearset in this program. monotone: how the tables
- *  are read. As above, and GM_ERR_FORMAT when the map is not complete. */
-GM_NODISCARD gm_status gm_verify_map(const gm_plant *plant, const gm_map *map,
-                                     int monotone, int points, uint64_t seed,
-                                     gm_verify_result *result, gm_error *error);
+/** The same with the gearset at n >= 1 oil temperatures, plants[n]: each point is at one
+ *  of them, drawn evenly. */
+GM_NODISCARD gm_status gm_verify_plants(int n, const gm_plant *const *plants,
+                                        const gm_reduced_probe *probe, int points,
+                                        uint64_t seed, gm_verify_result *result,
+                                        gm_error *error);
 
-/** What the reduced gearset of a map answers at a point. */
-void gm_verify_view(const gm_map_view *view, const gm_steady_point *point,
+/** Errors of a group at oil temperatures from low up to but not high [K], relative to the
+ *  largest loss of each case at these; *points: how many. */
+void gm_verify_between(const gm_verify_result *result, gm_verify_group group, double low,
+                       double high, int *points, double *max_relative,
+                       double *rms_relative);
+
+/** The same as gm_verify_plants for a map, by the reduced gearset in this program. monotone: how the tables
+ *  are read. As above, and GM_ERR_FORMAT when the map is not complete. */
+GM_NODISCARD gm_status gm_verify_map(int n, const gm_plant *const *plants,
+                                     const gm_map *map, int monotone, int points,
+                                     uint64_t seed, gm_verify_result *result,
+                                     gm_error *error);
+
+/** What the reduced gearset of a map answers at an oil temperature [K] and point. */
+void gm_verify_view(const gm_map_view *view, double oil, const gm_steady_point *point,
                     double output_torque, gm_reduced_answer *answer);
 
 void gm_verify_result_clear(gm_verify_result *result);

@@ -371,7 +371,8 @@ int gm_unit_rows(const gm_sweep_plan *plan, const gm_unit *unit)
 int gm_unit_row_points(const gm_sweep_plan *plan, const gm_unit *unit)
 {
     int sides = unit->kind == GM_UNIT_COUPLING || unit->kind == GM_UNIT_LINE;
-    return gm_map_row_size(&plan->map->tables[unit->table]) * (1 + sides);
+    const gm_map_table *table = &plan->map->tables[unit->table];
+    return gm_map_row_size(table) * table->slices * (1 + sides);
 }
 
 gm_status gm_unit_set_axes(gm_sweep_plan *plan, const gm_unit *unit, const gm_nodes *axes,
@@ -397,6 +398,19 @@ gm_status gm_unit_set_axes(gm_sweep_plan *plan, const gm_unit *unit, const gm_no
     return gm_map_set_axes(map, unit->companion, n, x, error);
 }
 
+static void set_plants(const gm_plant *plant, const gm_sweep_options *options,
+                       gm_sweep_plan *plan)
+{
+    int n = options->n_oil, between = options->between_oil && n > 0 ? n - 1 : 0;
+    plan->plants[0] = plant;
+    for (int k = 0; k < n; k++)
+        plan->plants[k] = options->at_oil[k];
+    for (int k = 0; k < between; k++)
+        plan->plants[n + k] = options->between_oil[k];
+    plan->plant = plan->plants[0];
+    plan->n_plants = n > 0 ? n + between : 1;
+}
+
 gm_status gm_sweep_plan_create(const gm_plant *plant, const gm_sweep_options *options,
                                gm_map *map, gm_sweep_plan **plan, gm_error *error)
 {
@@ -407,8 +421,8 @@ gm_status gm_sweep_plan_create(const gm_plant *plant, const gm_sweep_options *op
         gm_fail(error, status, "no memory for the sweep's plan");
         goto done;
     }
-    made->plant = plant;
     made->map = map;
+    set_plants(plant, options, made);
     made->monotone = options->monotone;
     b->plant = plant;
     b->options = options;

@@ -37,8 +37,14 @@ typedef struct gm_unit {
     int companion; /* table that comes out of the same points, or -1 */
 } gm_unit;
 
+/** The same gearset at several oil temperatures: those of the map's slices, then those
+ *  between them. */
+#define GM_SWEEP_PLANTS (2 * GM_MAP_MAX_OIL)
+
 typedef struct gm_sweep_plan {
-    const gm_plant *plant;
+    const gm_plant *plant; /* the first of: */
+    int n_plants;          /* as many as the map has slices, and those between */
+    const gm_plant *plants[GM_SWEEP_PLANTS];
     gm_map *map;
     int monotone; /* how the tables will be read: 0 linearly, 1 by monotone cubics */
     int n_lines[GM_MAX_PATHS];

@@ -16,8 +16,13 @@
 #define WATCH_INTERVAL 0.1 /* s */
 
 /* A key or record has no padding but what memset has made zero. */
-typedef struct record {
+typedef struct place_key {
     gm_steady_point point;
+    double oil; /* temperature, K */
+} place_key;
+
+typedef struct record {
+    place_key key;
     gm_steady_result result;
 } record;
 
@@ -36,8 +41,10 @@ struct gm_points {
 
 struct gm_point_solver {
     gm_points *points;
-    gm_steady_solver *solver;
-    int n; /* waiting for the journal */
+    int n_plants, plant; /* how many, and the present one */
+    const gm_plant *const *plants;
+    gm_steady_solver **solvers; /* [n_plants], each made when it is wanted */
+    int n;                      /* waiting for the journal */
     double since;
     record block[BLOCK];
 };
@@ -50,17 +57,18 @@ static double now(void)
 }
 
 /* The point as a key: flanges and fields that do not matter may hold -0.0. */
-static gm_steady_point key_of(const gm_steady_point *point)
+static place_key key_of(const gm_steady_point *point, double oil)
 {
-    gm_steady_point key;
-    memset(&key, 0, sizeof key);
-    memcpy(key.gear, point->gear, sizeof key.gear);
+    place_key k;
+    memset(&k, 0, sizeof k);
+    memcpy(k.point.gear, point->gear, sizeof k.point.gear);
     for (int f = 0; f < GM_MAX_FLANGES; f++) {
-        key.speed[f] = point->speed[f] + 0.0;
-        key.direction[f] = point->direction[f] + 0.0;
-        key.torque[f] = point->torque[f] + 0.0;
+        k.point.speed[f] = point->speed[f] + 0.0;
+        k.point.direction[f] = point->direction[f] + 0.0;
+        k.point.torque[f] = point->torque[f] + 0.0;
     }
-    return key;
+    k.oil = oil;
+    return k;
 }
 
 /* ---- the points ---- */
@@ -73,7 +81,7 @@ static gm_points *create(void)
     (void)pthread_mutex_init(&made->memo_lock, NULL);
     (void)pthread_mutex_init(&made->journal_lock, NULL);
     (void)pthread_mutex_init(&made->watch_lock, NULL);
-    made->memo = gm_memo_create(sizeof(gm_steady_point), sizeof(gm_steady_result));
+    made->memo = gm_memo_create(sizeof(place_key), sizeof(gm_steady_result));
     if (made->memo)
         return made;
     gm_points_close(made, true);
@@ -90,9 +98,9 @@ static gm_status take_up(gm_points *p, gm_error *error)
     long n;
     const record *records = gm_journal_records(p->journal, &n);
     for (long i = 0; i < n; i++) {
-        if (gm_memo_find(p->memo, &records[i].point))
+        if (gm_memo_find(p->memo, &records[i].key))
             continue; /* two threads may solve the same point at once */
-        gm_steady_result *result = gm_memo_add(p->memo, &records[i].point);
+        gm_steady_result *result = gm_memo_add(p->memo, &records[i].key);
         if (!result)
             return no_memory(error);
         *result = records[i].result;
@@ -190,7 +198,7 @@ long gm_points_resumed(const gm_points *points)
     return points->resumed;
 }
 
-static int find(gm_points *points, const gm_steady_point *key, gm_steady_result *result)
+static int find(gm_points *points, const place_key *key, gm_steady_result *result)
 {
     (void)pthread_mutex_lock(&points->memo_lock);
     const gm_steady_result *found = gm_memo_find(points->memo, key);
@@ -203,9 +211,9 @@ static int find(gm_points *points, const gm_steady_point *key, gm_steady_result 
 static gm_status add(gm_points *points, const record *solved, gm_error *error)
 {
     (void)pthread_mutex_lock(&points->memo_lock);
-    gm_steady_result *result = gm_memo_find(points->memo, &solved->point);
+    gm_steady_result *result = gm_memo_find(points->memo, &solved->key);
     if (!result)
-        result = gm_memo_add(points->memo, &solved->point);
+        result = gm_memo_add(points->memo, &solved->key);
     if (result)
         *result = solved->result;
     (void)pthread_mutex_unlock(&points->memo_lock);
@@ -214,26 +222,35 @@ static gm_status add(gm_points *points, const record *solved, gm_error *error)
 
 /* ---- a thread's solver ---- */
 
-gm_status gm_point_solver_create(gm_points *points, const gm_plant *plant,
+gm_status gm_point_solver_create(gm_points *points, int n, const gm_plant *const *plants,
                                  gm_point_solver **solver, gm_error *error)
 {
     gm_point_solver *made = gm_calloc(1, sizeof *made);
-    if (!made)
-        return no_memory(error);
-    made->points = points;
-    gm_status status = gm_steady_solver_create(plant, &made->solver, error);
-    if (status == GM_OK)
-        *solver = made;
-    else
+    if (made)
+        made->solvers = gm_calloc((size_t)n, sizeof *made->solvers);
+    if (!made || !made->solvers) {
         gm_free(made);
-    return status;
+        return no_memory(error);
+    }
+    made->points = points;
+    made->n_plants = n;
+    made->plants = plants;
+    *solver = made;
+    return GM_OK;
+}
+
+void gm_point_solver_choose(gm_point_solver *solver, int i)
+{
+    solver->plant = i;
 }
 
 void gm_point_solver_destroy(gm_point_solver *solver)
 {
     if (!solver)
         return;
-    gm_steady_solver_destroy(solver->solver);
+    for (int i = 0; i < solver->n_plants; i++)
+        gm_steady_solver_destroy(solver->solvers[i]);
+    gm_free(solver->solvers);
     gm_free(solver);
 }
 
@@ -296,17 +313,32 @@ static gm_status skip(gm_points *p, record *failed, const gm_error *why, gm_erro
     return status == GM_OK ? add(p, failed, error) : status;
 }
 
+static gm_status present_solver(gm_point_solver *s, gm_steady_solver **solver,
+                                gm_error *error)
+{
+    gm_steady_solver **present = &s->solvers[s->plant];
+    gm_status status = GM_OK;
+    if (!*present)
+        status = gm_steady_solver_create(s->plants[s->plant], present, error);
+    *solver = *present;
+    return status;
+}
+
 gm_status gm_point_solve(gm_point_solver *solver, const gm_steady_point *point,
                          gm_steady_result *result, gm_error *error)
 {
     record solved;
+    gm_steady_solver *steady;
     memset(&solved, 0, sizeof solved);
-    solved.point = key_of(point);
-    if (find(solver->points, &solved.point, result))
+    solved.key = key_of(point, solver->plants[solver->plant]->info.oil_temperature);
+    if (find(solver->points, &solved.key, result))
         return GM_OK;
-    gm_steady_solver_restart(solver->solver);
+    gm_status status = present_solver(solver, &steady, error);
+    if (status != GM_OK)
+        return status;
+    gm_steady_solver_restart(steady);
     gm_error why = {GM_OK, ""};
-    gm_status status = gm_steady_solve(solver->solver, &solved.point, result, &why);
+    status = gm_steady_solve(steady, &solved.key.point, result, &why);
     if (solver->points->may_skip && (status == GM_ERR_TOOL || status == GM_ERR_SOLVE)) {
         status = skip(solver->points, &solved, &why, error);
         *result = solved.result;

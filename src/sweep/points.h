@@ -48,8 +48,13 @@ double gm_points_uncertainty(const gm_points *points);
 /** A thread's way to the points. */
 typedef struct gm_point_solver gm_point_solver;
 
-GM_NODISCARD gm_status gm_point_solver_create(gm_points *points, const gm_plant *plant,
+/** For plants[n] that differ in their oil temperature only; they must outlive it. */
+GM_NODISCARD gm_status gm_point_solver_create(gm_points *points, int n,
+                                              const gm_plant *const *plants,
                                               gm_point_solver **solver, gm_error *error);
+
+/** From now on points are those of plant number i; it begins with 0. */
+void gm_point_solver_choose(gm_point_solver *solver, int i);
 
 /** What was solved and not flushed is known, but not in the journal. */
 void gm_point_solver_destroy(gm_point_solver *solver);

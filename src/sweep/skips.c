@@ -48,7 +48,7 @@ static int fill_line(const line *l)
 /* All lines along an axis; how many stay open. */
 static long fill_along(gm_map_table *t, int axis)
 {
-    long stride = 1, open = 0, all = gm_map_table_size(t);
+    long stride = 1, open = 0, all = gm_map_value_count(t);
     for (int a = axis + 1; a < GM_MAX_AXES; a++)
         stride *= t->n[a];
     for (long k = 0; k < all; k++) {
@@ -62,7 +62,7 @@ static long fill_along(gm_map_table *t, int axis)
 
 static int is_open(const gm_map_table *t)
 {
-    for (long k = 0; k < gm_map_table_size(t); k++)
+    for (long k = 0; k < gm_map_value_count(t); k++)
         if (isnan(t->value[k]))
             return 1;
     return 0;

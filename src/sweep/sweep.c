@@ -11,6 +11,7 @@
 #include "sweep/checks.h"
 #include "sweep/control.h"
 #include "sweep/experiments.h"
+#include "sweep/oil_bend.h"
 #include "sweep/plan.h"
 #include "sweep/points.h"
 #include "sweep/skips.h"
@@ -101,6 +102,30 @@ static void option_text(double value, char text[32])
         snprintf(text, 32, "auto");
 }
 
+/* The plant's own, or the end of the oil axis that is nearest to it. */
+static double usual_temperature(double own, const gm_sweep_options *options)
+{
+    if (options->n_oil == 0)
+        return own;
+    double low = options->at_oil[0]->info.oil_temperature;
+    double high = options->at_oil[options->n_oil - 1]->info.oil_temperature;
+    return fmin(fmax(own, low), high);
+}
+
+static gm_status set_oil(const gm_sweep_options *options, gm_map *map, gm_error *error)
+{
+    double temperature[GM_MAP_MAX_OIL];
+    if (options->n_oil == 0)
+        return GM_OK;
+    if (options->n_oil < 2 || options->n_oil > GM_MAP_MAX_OIL)
+        return gm_fail(error, GM_ERR_ARGUMENT,
+                       "an oil axis has 2 to %d temperatures, not %d", GM_MAP_MAX_OIL,
+                       options->n_oil);
+    for (int k = 0; k < options->n_oil; k++)
+        temperature[k] = options->at_oil[k]->info.oil_temperature;
+    return gm_map_set_oil(map, options->n_oil, temperature, error);
+}
+
 static void describe(const gm_plant *plant, const gm_sweep_options *options, gm_map *map)
 {
     const gm_plant_info *info = &plant->info;
@@ -109,7 +134,7 @@ static void describe(const gm_plant *plant, const gm_sweep_options *options, gm_
     option_text(options->torque_step, torque);
     map->speed_max = options->speed_max > 0.0 ? options->speed_max : info->speed_max;
     map->torque_max = options->torque_max > 0.0 ? options->torque_max : info->torque_max;
-    map->oil_temperature = info->oil_temperature;
+    map->oil_temperature = usual_temperature(info->oil_temperature, options);
     snprintf(map->name, sizeof map->name, "%s", info->name);
     snprintf(map->title, sizeof map->title, "%s", info->title);
     snprintf(map->tool_version, sizeof map->tool_version, "%s", GM_VERSION);
@@ -119,6 +144,12 @@ static void describe(const gm_plant *plant, const gm_sweep_options *options, gm_
              "oil_temperature=%.17g",
              speed, torque, map->speed_max, map->torque_max, map->oil_temperature);
     size_t used = strlen(map->options);
+    if (options->n_oil > 0)
+        snprintf(map->options + used, sizeof map->options - used,
+                 " oil_axis=%.9g..%.9g/%d", options->at_oil[0]->info.oil_temperature,
+                 options->at_oil[options->n_oil - 1]->info.oil_temperature,
+                 options->n_oil);
+    used = strlen(map->options);
     if (by_error(options))
         snprintf(map->options + used, sizeof map->options - used,
                  " tolerance=%.17g,%.17gN.m interpolation=%s", options->tolerance_share,
@@ -168,8 +199,8 @@ static void do_share(void *user)
     list *l = user;
     gm_point_solver *solver = NULL;
     gm_error error = {GM_OK, ""};
-    gm_status status =
-        gm_point_solver_create(l->r->points, l->r->plan->plant, &solver, &error);
+    gm_status status = gm_point_solver_create(l->r->points, l->r->plan->n_plants,
+                                              l->r->plan->plants, &solver, &error);
     if (status != GM_OK) {
         keep_failure(l, 0, status, &error);
         return;
@@ -312,6 +343,17 @@ static gm_status fill_tables(run *r, int phase)
     return r->status;
 }
 
+static gm_status fit_bend(run *r, int i, gm_point_solver *solver, gm_error *error)
+{
+    return gm_oil_bend(r->plan, i, solver, &r->map->oil_bend[i], error);
+}
+
+static gm_status fit_bends(run *r)
+{
+    int measured = r->plan->n_plants > gm_map_slices(r->map);
+    return measured ? do_all(r, fit_bend, r->map->n_oil - 1) : GM_OK;
+}
+
 static gm_status run_phases(run *r, gm_error *error)
 {
     r->started = now();
@@ -322,6 +364,8 @@ static gm_status run_phases(run *r, gm_error *error)
             break;
         (void)fill_tables(r, phase);
     }
+    if (r->status == GM_OK)
+        (void)fit_bends(r);
     atomic_store(&r->outstanding, 0);
     if (r->status == GM_OK && r->report) {
         gm_sweep_progress progress = progress_of(r);
@@ -344,6 +388,9 @@ static gm_status prepare(run *r, const gm_plant *plant, const gm_sweep_options *
     r->map = gm_map_create();
     if (!r->map)
         return gm_fail(error, GM_ERR_MEMORY, "no memory for the map");
+    status = set_oil(options, r->map, error);
+    if (status != GM_OK)
+        return status;
     describe(plant, options, r->map);
     status = check_range(r->map, error);
     if (status == GM_OK)

@@ -13,8 +13,10 @@
 #define MAX_LINES 32
 
 typedef struct run {
-    const gm_plant *plant;
-    gm_steady_solver *solver;
+    const gm_plant *plant; /* the first of: */
+    int n_plants;
+    const gm_plant *const *plants;
+    gm_steady_solver **solvers; /* [n_plants], each made when it is wanted */
     gm_verify_result *result;
     gm_error *error;
     double ratio[GM_MAX_INPUT_PATHS][MAX_GEARS]; /* of every gear */
@@ -145,7 +147,8 @@ static gm_status keep_point(gm_verify_case *c, const gm_verify_sample *sample,
     c->point[n] = (gm_verify_point){.speed = sample->speed,
                                     .torque = sample->torque,
                                     .detailed = sample->detailed,
-                                    .reduced = sample->reduced};
+                                    .reduced = sample->reduced,
+                                    .oil = sample->oil};
     return GM_OK;
 }
 
@@ -162,6 +165,7 @@ static void add_sample(gm_verify_case *c, const gm_verify_sample *sample)
     c->worst_speed = sample->speed;
     c->worst_torque = sample->torque;
     c->worst_output_speed = sample->output_speed;
+    c->worst_oil = sample->oil;
 }
 
 static void finish_group(gm_verify_result *result, gm_verify_group group)
@@ -191,6 +195,33 @@ static void label_case(const run *r, const gm_verify_draw *draw, gm_verify_case 
     memcpy(c->gear, draw->gear, sizeof c->gear);
 }
 
+/* One plant of several; a single one takes no random number. */
+static gm_status draw_plant(run *r, uint64_t *random, gm_steady_solver **solver)
+{
+    int i = r->n_plants > 1 ? (int)(gm_random_next(random) % (uint64_t)r->n_plants) : 0;
+    gm_status status = GM_OK;
+    if (!r->solvers[i])
+        status = gm_steady_solver_create(r->plants[i], &r->solvers[i], r->error);
+    *solver = r->solvers[i];
+    return status;
+}
+
+static gm_status compare_one(run *r, const gm_verify_draw *draw,
+                             const gm_reduced_probe *probe, uint64_t *random,
+                             gm_verify_sample *sample)
+{
+    gm_steady_solver *solver;
+    gm_status status = draw_plant(r, random, &solver);
+    if (status == GM_OK)
+        status = gm_verify_compare(draw, solver, gm_steady_solver_plant(solver), probe,
+                                   random, sample, r->error);
+    if (status == GM_OK && !isfinite(sample->reduced))
+        return gm_fail(r->error, GM_ERR_MODEL,
+                       "the reduced component answers %g at %g rad/s, %g N.m",
+                       sample->reduced, sample->speed, sample->torque);
+    return status;
+}
+
 static gm_status run_group(run *r, gm_verify_group group, const gm_reduced_probe *probe)
 {
     gm_verify_result *result = r->result;
@@ -208,14 +239,9 @@ static gm_status run_group(run *r, gm_verify_group group, const gm_reduced_probe
     for (int k = 0; k < result->points; k++) {
         int i = (int)(gm_random_next(&random) % (uint64_t)n);
         gm_verify_sample sample;
-        gm_status status = gm_verify_compare(&r->draws[group][i], r->solver, r->plant,
-                                             probe, &random, &sample, r->error);
+        gm_status status = compare_one(r, &r->draws[group][i], probe, &random, &sample);
         if (status != GM_OK)
             return status;
-        if (!isfinite(sample.reduced))
-            return gm_fail(r->error, GM_ERR_MODEL,
-                           "the reduced component answers %g at %g rad/s, %g N.m",
-                           sample.reduced, sample.speed, sample.torque);
         status = keep_point(&result->cases[group][i], &sample, r->error);
         if (status != GM_OK)
             return status;
@@ -225,27 +251,83 @@ static gm_status run_group(run *r, gm_verify_group group, const gm_reduced_probe
     return GM_OK;
 }
 
-gm_status gm_verify_steady(const gm_plant *plant, const gm_reduced_probe *probe,
-                           int points, uint64_t seed, gm_verify_result *result,
-                           gm_error *error)
+static gm_status run_groups(run *r, const gm_reduced_probe *probe)
+{
+    r->solvers = gm_calloc((size_t)r->n_plants, sizeof *r->solvers);
+    if (!r->solvers)
+        return gm_fail(r->error, GM_ERR_MEMORY, "no memory to verify");
+    gm_status status = add_cases(r);
+    for (int group = 0; group < GM_VERIFY_GROUPS && status == GM_OK; group++)
+        status = run_group(r, (gm_verify_group)group, probe);
+    return status;
+}
+
+static void clear_run(run *r)
+{
+    for (int i = 0; r->solvers && i < r->n_plants; i++)
+        gm_steady_solver_destroy(r->solvers[i]);
+    gm_free(r->solvers);
+    for (int group = 0; group < GM_VERIFY_GROUPS; group++)
+        gm_free(r->draws[group]);
+}
+
+gm_status gm_verify_plants(int n, const gm_plant *const *plants,
+                           const gm_reduced_probe *probe, int points, uint64_t seed,
+                           gm_verify_result *result, gm_error *error)
 {
     gm_verify_result made = {.points = points, .seed = seed};
-    run r = {.plant = plant, .result = &made, .error = error};
+    run r = {.plant = plants[0],
+             .n_plants = n,
+             .plants = plants,
+             .result = &made,
+             .error = error};
     if (points < 1)
         return gm_fail(error, GM_ERR_ARGUMENT, "%d points cannot be verified", points);
-    gm_status status = gm_steady_solver_create(plant, &r.solver, error);
-    if (status == GM_OK)
-        status = add_cases(&r);
-    for (int group = 0; group < GM_VERIFY_GROUPS && status == GM_OK; group++)
-        status = run_group(&r, (gm_verify_group)group, probe);
-    gm_steady_solver_destroy(r.solver);
-    for (int group = 0; group < GM_VERIFY_GROUPS; group++)
-        gm_free(r.draws[group]);
+    gm_status status = run_groups(&r, probe);
+    clear_run(&r);
     if (status == GM_OK)
         *result = made;
     else
         gm_verify_result_clear(&made);
     return status;
+}
+
+gm_status gm_verify_steady(const gm_plant *plant, const gm_reduced_probe *probe,
+                           int points, uint64_t seed, gm_verify_result *result,
+                           gm_error *error)
+{
+    return gm_verify_plants(1, &plant, probe, points, seed, result, error);
+}
+
+static int is_between(const gm_verify_point *p, double low, double high)
+{
+    return p->oil >= low && p->oil < high;
+}
+
+void gm_verify_between(const gm_verify_result *result, gm_verify_group group, double low,
+                       double high, int *points, double *max_relative,
+                       double *rms_relative)
+{
+    double max = 0.0, sum = 0.0;
+    *points = 0;
+    for (int i = 0; i < result->n_cases[group]; i++) {
+        const gm_verify_case *c = &result->cases[group][i];
+        double largest = 0.0;
+        for (int k = 0; k < c->points; k++)
+            if (is_between(&c->point[k], low, high))
+                largest = fmax(largest, fabs(c->point[k].detailed));
+        for (int k = 0; k < c->points && largest > 0.0; k++) {
+            const gm_verify_point *p = &c->point[k];
+            double error = fabs(p->reduced - p->detailed) / largest;
+            if (!is_between(p, low, high))
+                continue;
+            max = fmax(max, error);
+            sum += error * error;
+            ++*points;
+        }
+    }
+    *max_relative = max;
+    *rms_relative = *points > 0 ? sqrt(sum / *points) : 0.0;
 }
 
 void gm_verify_result_clear(gm_verify_result *result)

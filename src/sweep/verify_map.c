@@ -8,11 +8,11 @@
 
 #include <stddef.h>
 
-void gm_verify_view(const gm_map_view *view, const gm_steady_point *point,
+void gm_verify_view(const gm_map_view *view, double oil, const gm_steady_point *point,
                     double output_torque, gm_reduced_answer *answer)
 {
     const gm_reduced_map *m = gm_map_view_reduced(view);
-    gm_reduced_inputs inputs = {.output_tau = output_torque};
+    gm_reduced_inputs inputs = {.output_tau = output_torque, .oil_temperature = oil};
     gm_reduced_params params;
     gm_reduced_state s;
     gm_reduced_outputs out;
@@ -29,16 +29,17 @@ void gm_verify_view(const gm_map_view *view, const gm_steady_point *point,
         answer->path_drag[p] = out.path_loss_torque[p];
 }
 
-static gm_status answer_at(void *self, const gm_steady_point *point, double output_torque,
-                           gm_reduced_answer *answer, gm_error *error)
+static gm_status answer_at(void *self, double oil, const gm_steady_point *point,
+                           double output_torque, gm_reduced_answer *answer,
+                           gm_error *error)
 {
     (void)error;
-    gm_verify_view(self, point, output_torque, answer);
+    gm_verify_view(self, oil, point, output_torque, answer);
     return GM_OK;
 }
 
-gm_status gm_verify_map(const gm_plant *plant, const gm_map *map, int monotone,
-                        int points, uint64_t seed, gm_verify_result *result,
+gm_status gm_verify_map(int n, const gm_plant *const *plants, const gm_map *map,
+                        int monotone, int points, uint64_t seed, gm_verify_result *result,
                         gm_error *error)
 {
     gm_map_view *view = NULL;
@@ -48,7 +49,7 @@ gm_status gm_verify_map(const gm_plant *plant, const gm_map *map, int monotone,
     if (monotone)
         gm_map_view_make_monotone(view);
     gm_reduced_probe probe = {answer_at, view};
-    status = gm_verify_steady(plant, &probe, points, seed, result, error);
+    status = gm_verify_plants(n, plants, &probe, points, seed, result, error);
     gm_map_view_destroy(view);
     return status;
 }

@@ -89,11 +89,12 @@ typedef struct both_answers {
 static gm_status ask(gm_steady_solver *solver, const gm_reduced_probe *probe,
                      const gm_steady_point *point, both_answers *answers, gm_error *error)
 {
+    const double oil = gm_steady_solver_plant(solver)->info.oil_temperature;
     gm_status status = gm_steady_solve(solver, point, &answers->detailed, error);
     if (status != GM_OK)
         return status;
-    return probe->at(probe->self, point, answers->detailed.torque[0], &answers->reduced,
-                     error);
+    return probe->at(probe->self, oil, point, answers->detailed.torque[0],
+                     &answers->reduced, error);
 }
 
 static void compare_loss(const gm_verify_draw *draw, int n_paths, const both_answers *at,
@@ -155,6 +156,7 @@ gm_status gm_verify_compare(const gm_verify_draw *draw, gm_steady_solver *solver
     if (status != GM_OK)
         return status;
     sample->output_speed = point.speed[0];
+    sample->oil = plant->info.oil_temperature;
     if (!free_path) {
         compare_loss(draw, plant->info.n_paths, &at, sample);
         return GM_OK;

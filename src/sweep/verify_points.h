@@ -31,6 +31,7 @@ typedef struct gm_verify_sample {
     double detailed, reduced; /* N.m */
     double speed, torque;     /* of the path */
     double output_speed;
+    double oil; /* K */
 } gm_verify_sample;
 
 GM_NODISCARD gm_status gm_verify_compare(const gm_verify_draw *draw,

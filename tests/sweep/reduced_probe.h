@@ -17,7 +17,8 @@ typedef struct reduced_probe {
 } reduced_probe;
 
 /* For gm_reduced_probe.at; self is a reduced_probe. */
-gm_status reduced_probe_at(void *self, const gm_steady_point *point, double output_torque,
-                           gm_reduced_answer *answer, gm_error *error);
+gm_status reduced_probe_at(void *self, double oil, const gm_steady_point *point,
+                           double output_torque, gm_reduced_answer *answer,
+                           gm_error *error);
 
 #endif

@@ -284,8 +284,8 @@ static void result(const void *self, const double *x, gm_steady_result *found)
 
 gm_compliance synthetic_compliance(int p, int number)
 {
-    return (gm_compliance){
-        1e4 + 1e3 * number, 1.0 + p, 2.0 + p, 1e-3 * (5 + number), 1e-4};
+    return (gm_compliance){1e4 + 1e3 * number, 1.0 + p, 2.0 + p, 1e-3 * (5 + number),
+                           1e-4};
 }
 
 static gm_status kinematics(const void *self, const int *gear, gm_kinematics *k,

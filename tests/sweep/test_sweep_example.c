@@ -100,7 +100,7 @@ static double error_at_node(gm_steady_solver *solver, const gm_map_table *d, dou
     point.gear[p] = d->key.gear[p];
     point.torque[1 + p] = sign * d->x[1][j] - coupling_at(-w_p);
     assert_int_equal(gm_steady_solve(solver, &point, &found, NULL), GM_OK);
-    assert_int_equal(reduced_probe_at(&of, &point, found.torque[0], &answer, NULL),
+    assert_int_equal(reduced_probe_at(&of, 0.0, &point, found.torque[0], &answer, NULL),
                      GM_OK);
     double power = found.torque[0] * found.speed[0] + found.torque[1 + p] * w_p;
     *loss = power / fabs(w_p);

@@ -219,9 +219,9 @@ static void axes_by_error_meet_their_tolerance(void **state)
         options.monotone = monotone;
         gm_map *map = sweep_ok(options);
         assert_non_null(strstr(map->options, monotone ? "monotone" : "linear"));
-        assert_int_equal(
-            gm_verify_map(&source.plant, map, monotone, 3000, 17, &result, &error),
-            GM_OK);
+        assert_int_equal(gm_verify_map(1, &(const gm_plant *){&source.plant}, map,
+                                       monotone, 3000, 17, &result, &error),
+                         GM_OK);
         for (size_t g = 0; g < sizeof inside / sizeof inside[0]; g++)
             if (!(result.max_relative[inside[g]] <= 0.01))
                 fail_msg("%s: %g", gm_verify_group_name(inside[g]),

@@ -181,10 +181,11 @@ typedef struct seen {
     int resting;
 } seen;
 
-static gm_status see(void *self, const gm_steady_point *point, double output_torque,
-                     gm_reduced_answer *answer, gm_error *e)
+static gm_status see(void *self, double oil, const gm_steady_point *point,
+                     double output_torque, gm_reduced_answer *answer, gm_error *e)
 {
     seen *s = self;
+    (void)oil;
     (void)output_torque;
     (void)e;
     *answer = (gm_reduced_answer){.loss_power = 0.0};
