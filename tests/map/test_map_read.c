@@ -74,8 +74,9 @@ static void changed_content_is_refused(void **state)
 {
     (void)state;
     static const char *const cases[][2] = {
-        {"PRAGMA user_version = 4", "is a map of format 4, but this version of Gearmap "
-                                    "reads format 3"},
+        {"PRAGMA user_version = 5", "is a map of format 5, but this version of Gearmap "
+                                    "reads formats 3 and 4"},
+        {"PRAGMA user_version = 4", "its table oil is missing"},
         {"PRAGMA application_id = 7", "of another kind"},
         {"DROP TABLE value", "value is missing"},
         {"DROP TABLE gear; CREATE VIEW gear AS SELECT 0 path", "gear is missing"},
