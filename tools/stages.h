@@ -167,9 +167,9 @@ double gm_stage_clock(void);
      .help = "threads to compute with; default: one per core"},                          \
     GM_OIL_LIST_OPTION(                                                                  \
         GM_SWEEP_OPTION(type, oil),                                                      \
-        "oil temperature; several, such as -10degC,20degC,80degC: the component gets an " \
-        "oil axis, between which its losses follow the input oil_temperature; default: " \
-        "the description's")
+        "oil temperature; several, such as -10degC,20degC,80degC: tables for each, "     \
+        "between which losses follow the input oil_temperature; default: the "           \
+        "description's")
 // clang-format on
 
 #endif

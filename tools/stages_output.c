@@ -77,7 +77,8 @@ static void case_gears(const gm_verify_case *c, gm_json *json)
 
 #define KELVIN 273.15
 
-static void case_json(const gm_verify_case *c, gm_json *json)
+/* axis: 1 with an oil axis */
+static void case_json(const gm_verify_case *c, int axis, gm_json *json)
 {
     double scale = c->largest_loss > 0.0 ? 1.0 / c->largest_loss : 0.0;
     gm_json_object(json, NULL);
@@ -93,20 +94,56 @@ static void case_json(const gm_verify_case *c, gm_json *json)
     gm_json_object(json, "worst");
     gm_json_number(json, "speed_rpm", c->worst_speed * RPM_PER_RAD_S);
     gm_json_number(json, "torque_Nm", c->worst_torque);
-    gm_json_number(json, "oil_degC", c->worst_oil - KELVIN);
+    if (axis)
+        gm_json_number(json, "oil_degC", c->worst_oil - KELVIN);
     gm_json_end(json);
     gm_json_end(json);
 }
 
-/* max_relative, rms_relative and cases of one group */
-static void group_json(const gm_verify_result *r, int group, gm_json *json)
+/* Errors of a group in an interval of the oil axis. */
+typedef struct interval_errors {
+    double low, high; /* K */
+    int points;
+    double max, rms; /* relative */
+} interval_errors;
+
+static interval_errors errors_between(const gm_verify_stage *stage, int group, int k)
 {
+    interval_errors e = {.low = stage->oil[k], .high = stage->oil[k + 1]};
+    gm_verify_between(&stage->result, (gm_verify_group)group, e.low, e.high, &e.points,
+                      &e.max, &e.rms);
+    return e;
+}
+
+static void intervals_json(const gm_verify_stage *stage, int group, gm_json *json)
+{
+    if (stage->n_oil == 0)
+        return;
+    gm_json_array(json, "by_oil_temperature");
+    for (int k = 0; k + 1 < stage->n_oil; k++) {
+        const interval_errors e = errors_between(stage, group, k);
+        gm_json_object(json, NULL);
+        gm_json_number(json, "from_degC", e.low - KELVIN);
+        gm_json_number(json, "to_degC", e.high - KELVIN);
+        gm_json_integer(json, "points", e.points);
+        gm_json_number(json, "max_relative", e.max);
+        gm_json_number(json, "rms_relative", e.rms);
+        gm_json_end(json);
+    }
+    gm_json_end(json);
+}
+
+/* max_relative, rms_relative and cases of one group */
+static void group_json(const gm_verify_stage *stage, int group, gm_json *json)
+{
+    const gm_verify_result *r = &stage->result;
     gm_json_number(json, "max_relative", r->max_relative[group]);
     gm_json_number(json, "rms_relative", r->rms_relative[group]);
     gm_json_array(json, "cases");
     for (int i = 0; i < r->n_cases[group]; i++)
-        case_json(&r->cases[group][i], json);
+        case_json(&r->cases[group][i], stage->n_oil > 0, json);
     gm_json_end(json);
+    intervals_json(stage, group, json);
 }
 
 void gm_verify_stage_json(const gm_verify_stage *stage, gm_json *json)
@@ -114,13 +151,13 @@ void gm_verify_stage_json(const gm_verify_stage *stage, gm_json *json)
     const gm_verify_result *r = &stage->result;
     gm_json_integer(json, "points", r->points);
     gm_json_integer(json, "seed", (long long)r->seed);
-    group_json(r, GM_VERIFY_SINGLE, json);
+    group_json(stage, GM_VERIFY_SINGLE, json);
     gm_json_object(json, "groups");
     for (int group = GM_VERIFY_SINGLE + 1; group < GM_VERIFY_GROUPS; group++) {
         if (r->n_cases[group] == 0)
             continue;
         gm_json_object(json, gm_verify_group_name((gm_verify_group)group));
-        group_json(r, group, json);
+        group_json(stage, group, json);
         gm_json_end(json);
     }
     gm_json_end(json);
@@ -146,6 +183,26 @@ void gm_bake_stage_print(const gm_bake_stage *stage, const char *fmu, FILE *out)
             stage->summary.file_size / 1024, stage->summary.library_size / 1024);
 }
 
+/* Each interval with the largest values there. */
+static void print_intervals(const gm_verify_stage *stage, FILE *out)
+{
+    if (stage->n_oil == 0)
+        return;
+    fprintf(out, "\n    %-34s", "by oil temperature, max");
+    for (int k = 0; k + 1 < stage->n_oil; k++)
+        fprintf(out, " %4.0f .. %3.0f °C", stage->oil[k] - KELVIN,
+                stage->oil[k + 1] - KELVIN);
+    fputc('\n', out);
+    for (int group = 0; group < GM_VERIFY_GROUPS; group++) {
+        if (stage->result.n_cases[group] == 0)
+            continue;
+        fprintf(out, "    %-34s", gm_stage_group_title(group));
+        for (int k = 0; k + 1 < stage->n_oil; k++)
+            fprintf(out, " %12.3f %%", 100.0 * errors_between(stage, group, k).max);
+        fputc('\n', out);
+    }
+}
+
 void gm_verify_stage_print_groups(const gm_verify_stage *stage, FILE *out)
 {
     const gm_verify_result *r = &stage->result;
@@ -159,6 +216,7 @@ void gm_verify_stage_print_groups(const gm_verify_stage *stage, FILE *out)
         if (r->n_cases[group] > 0)
             fprintf(out, "    %-34s %7.3f %% %7.3f %%\n", gm_stage_group_title(group),
                     100.0 * r->max_relative[group], 100.0 * r->rms_relative[group]);
+    print_intervals(stage, out);
 }
 
 static void print_case(const gm_verify_case *c, FILE *out)

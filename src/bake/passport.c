@@ -110,8 +110,11 @@ static json_t *steady_of(const json_t *result)
                                        "rms_relative", "cases",  "groups", NULL};
     if (!result)
         return json_null();
-    json_t *made = json_object();
-    return kept(made, copy_members(made, result, keys));
+    json_t *made = json_object(), *by_oil = json_object_get(result, "by_oil_temperature");
+    bool complete = copy_members(made, result, keys);
+    if (by_oil) /* of a component with an oil axis */
+        complete &= json_object_set(made, "by_oil_temperature", by_oil) == 0;
+    return kept(made, complete);
 }
 
 /* A drive with its figures, which stand beside it where there is one drive only. */

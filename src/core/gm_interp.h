@@ -62,8 +62,9 @@ typedef struct gm_table3 {
 } gm_table3;
 
 /** A table may hold several slices of values, one after the other, each with all its
- *  nodes. What is read is rest * slice[at] + share * slice[at + 1]; with share 0 slice[at]
- *  as it is, so zeroed memory is the first slice. Calls without slices read the first. */
+ *  nodes. What is read is rest * slice[at] + share * slice[at + 1]; with share 0
+ *  slice[at] as it is, so zeroed memory is the first slice, and so is what is read
+ *  without. */
 typedef struct gm_slices {
     int at;
     gm_real rest, share;

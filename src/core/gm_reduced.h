@@ -118,8 +118,9 @@ typedef struct gm_configuration {
 } gm_configuration;
 
 /** Oil temperatures of the slices of all tables. With the way u = 0 .. 1 from one to the
- *  next, losses follow the share u (1 + bend) / (1 + bend u) of the next slice: bend 0 is
- *  linear; with bend > 0 they change most at the lower temperature, as a viscosity does. */
+ *  next, losses follow the share u (1 + bend) / (1 + bend u) of the next slice: bend 0
+ *  is linear; with bend > 0 they change most at the lower temperature, as a viscosity
+ *  does. */
 typedef struct gm_oil_axis {
     int n; /* slices; 0 or 1: one, and the temperature has no effect */
     const gm_real *temperature; /* [n] K, strictly increasing */

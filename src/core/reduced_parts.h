@@ -278,8 +278,8 @@ void gm_clear_terms(gm_terms *terms);
  *  output or a path is not needed for the motion. */
 void gm_terms_at(const gm_drive *d, gm_solution *s, gm_point *point);
 
-/** What a kelvin more of oil temperature makes of the torques in s->terms, which were read
- *  at s->point, in *t; its gradients mean nothing. */
+/** What a kelvin more of oil temperature makes of the torques in s->terms, which were
+ *  read at s->point, in *t; its gradients mean nothing. */
 void gm_terms_by_oil(const gm_drive *d, const gm_solution *s, gm_terms *t);
 
 /** Terms on the output and the load losses for direction sign of the output (terms->out

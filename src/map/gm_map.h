@@ -119,8 +119,8 @@ void gm_map_destroy(gm_map *map);
 GM_NODISCARD gm_status gm_map_set_path(gm_map *map, int p, const char *name, int n_gears,
                                        gm_error *error);
 
-/** Give an empty map an oil axis of n >= 2 temperatures [K], with no bend; its tables will
- *  have a slice for each. GM_ERR_ARGUMENT: they are not above zero and strictly
+/** Give an empty map an oil axis of n >= 2 temperatures [K], with no bend; its tables
+ *  will have a slice for each. GM_ERR_ARGUMENT: they are not above zero and strictly
  *  increasing, more than GM_MAP_MAX_OIL, or the map has tables already. */
 GM_NODISCARD gm_status gm_map_set_oil(gm_map *map, int n, const double *temperature,
                                       gm_error *error);

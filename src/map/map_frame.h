@@ -24,8 +24,9 @@ GM_NODISCARD gm_status gm_frame_write_oil(const gm_db *db, const gm_map *map,
 GM_NODISCARD gm_status gm_frame_write_head(const gm_db *db, const gm_map *map,
                                            gm_error *error);
 
-/** Oil axis, paths, and axes with keys, into an empty *map, in this order. file_size bounds what may be allocated:
- *  each number takes more than a byte of the file. GM_ERR_FORMAT: damaged. */
+/** Oil axis, paths, and axes with keys, into an empty *map, in this order. file_size
+ *  bounds what may be allocated: each number takes more than a byte of the file.
+ *  GM_ERR_FORMAT: damaged. */
 GM_NODISCARD gm_status gm_frame_read_oil(const gm_db *db, gm_map *map, gm_error *error);
 GM_NODISCARD gm_status gm_frame_read_paths(const gm_db *db, gm_map *map, gm_error *error);
 GM_NODISCARD gm_status gm_frame_read_tables(const gm_db *db, long long file_size,

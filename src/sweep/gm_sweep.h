@@ -24,9 +24,9 @@ typedef struct gm_sweep_options {
     double tolerance_torque; /* N.m at the flange where the loss is */
     int monotone; /* how the tables will be read: 0 linearly, 1 by monotone cubics */
     int threads;
-    /* An oil axis: the same gearset at n_oil >= 2 temperatures, ascending (that of each is
-       in its info), and once between any two of them, from which follows how losses go
-       from one to the next; 0: the tables hold for the plant's own temperature. */
+    /* An oil axis: the same gearset at n_oil >= 2 temperatures, ascending (that of each
+       is in its info), and once between any two of them, from which follows how losses
+       go from one to the next; 0: the tables hold for the plant's own temperature. */
     int n_oil;
     const gm_plant *const *at_oil;      /* [n_oil] */
     const gm_plant *const *between_oil; /* [n_oil - 1]; NULL: linear in temperature */

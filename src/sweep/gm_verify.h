@@ -100,8 +100,9 @@ void gm_verify_between(const gm_verify_result *result, gm_verify_group group, do
                        double high, int *points, double *max_relative,
                        double *rms_relative);
 
-/** The same as gm_verify_plants for a map, by the reduced gearset in this program. monotone: how the tables
- *  are read. As above, and GM_ERR_FORMAT when the map is not complete. */
+/** The same as gm_verify_plants for a map, by the reduced gearset in this program.
+ *  monotone: how the tables are read. As above, and GM_ERR_FORMAT when the map is not
+ *  complete. */
 GM_NODISCARD gm_status gm_verify_map(int n, const gm_plant *const *plants,
                                      const gm_map *map, int monotone, int points,
                                      uint64_t seed, gm_verify_result *result,

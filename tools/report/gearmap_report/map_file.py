@@ -86,19 +86,29 @@ def optional(connection, table, query):
     return pd.read_sql_query(query, connection) if there else pd.DataFrame()
 
 
+def usual_oil(table, temperature):
+    """Of a map with an oil axis the values at the temperature nearest to the usual one."""
+    if "oil_degC" not in table.columns or table.empty:
+        return table
+    away = (table["oil_degC"] - temperature).abs()
+    return table[away == away.min()].drop(columns="oil_degC").reset_index(drop=True)
+
+
 def read_map(path):
     connection = open_map(path)
     try:
         check_kind(path, connection)
 
         def view(name):
-            return pd.read_sql_query("SELECT * FROM %s" % name, connection)
+            return usual_oil(pd.read_sql_query("SELECT * FROM %s" % name, connection),
+                             about["oil_degC"])
 
+        about = pd.read_sql_query("SELECT * FROM v_map", connection).iloc[0]
         text = optional(connection, "description", "SELECT text FROM description")
         kept = optional(connection, "result", "SELECT json FROM result ORDER BY rowid")
         count = connection.execute("SELECT count(*) FROM map_table").fetchone()[0]
         values = connection.execute("SELECT count(*) FROM value").fetchone()[0]
-        return Map(path=str(path), about=view("v_map").iloc[0], gears=view("v_gear"),
+        return Map(path=str(path), about=about, gears=view("v_gear"),
                    configurations=view("v_configuration"), load_loss=view("v_load_loss"),
                    parasitic=view("v_parasitic_loss"), drag=view("v_drag"),
                    errors=optional(connection, "verification", VERIFICATION),
