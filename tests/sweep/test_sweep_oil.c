@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * Sweeps with an oil axis: each slice is what a sweep at its temperature alone finds; what
- * is read between them is compared with gearsets whose losses follow known laws of the
+ * Sweeps with an oil axis: each slice is what a sweep at its temperature alone finds;
+ * what is read between them is compared with gearsets whose losses follow known laws of the
  * temperature.
  */
 #include "sweep/gm_sweep.h"
