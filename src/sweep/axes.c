@@ -101,12 +101,12 @@ void gm_nodes_scale(double factor, gm_nodes *nodes)
         nodes->x[i] *= factor;
 }
 
-void gm_nodes_mirror(gm_nodes *nodes)
+void gm_nodes_mirror(const gm_nodes *below, gm_nodes *nodes)
 {
-    int zero = nodes->n - 1;
-    for (int i = zero; i >= 0; i--)
-        nodes->x[zero + i] = nodes->x[i];
-    for (int i = 1; i <= zero; i++)
-        nodes->x[zero - i] = -nodes->x[zero + i];
-    nodes->n = 2 * zero + 1;
+    gm_nodes both = {.n = below->n - 1 + nodes->n};
+    for (int i = 1; i < below->n; i++)
+        both.x[below->n - 1 - i] = -below->x[i];
+    for (int i = 0; i < nodes->n; i++)
+        both.x[below->n - 1 + i] = nodes->x[i];
+    *nodes = both;
 }

@@ -48,7 +48,8 @@ void gm_nodes_extend(double end, int n, gm_nodes *nodes);
 /** Multiply by factor > 0. */
 void gm_nodes_scale(double factor, gm_nodes *nodes);
 
-/** Nodes 0 … max become -max … 0 … max. 2 n - 1 <= GM_NODES_MAX. */
-void gm_nodes_mirror(gm_nodes *nodes);
+/** Nodes 0 … max become -max … 0 … max, below zero those of `below` (0 … max as well, may
+ *  be the same nodes). Together no more than GM_NODES_MAX + 1. */
+void gm_nodes_mirror(const gm_nodes *below, gm_nodes *nodes);
 
 #endif

@@ -110,7 +110,7 @@ static void torque_axis(const builder *b, gm_refine_axis *axis)
     add_start(TORQUE_FLANK * max, &axis->start);
     for (int i = 0; i < n; i++)
         add_start(kink[i], &axis->start);
-    gm_nodes_mirror(&axis->start);
+    gm_nodes_mirror(&axis->start, &axis->start);
     add_cuts(cuts, 7, axis);
     end_axis(TORQUE_MOST, axis);
 }
@@ -151,7 +151,7 @@ static void output_axis(const builder *b, gm_refine_axis *axis)
 static void coupling_axis(const builder *b, gm_refine_axis *axis)
 {
     gm_nodes_power(FREE_START, end_of(b, 0), FREE_POWER, &axis->start);
-    gm_nodes_mirror(&axis->start);
+    gm_nodes_mirror(&axis->start, &axis->start);
     double first = 0.001 * b->plan->map->speed_max;
     add_start(first, &axis->start);
     add_start(-first, &axis->start);
@@ -173,7 +173,7 @@ static void both_torque_axis(const builder *b, int a, gm_refine_axis *axis)
 {
     static const double cuts[] = {-1.0, -0.4, 0.4, 1.0};
     gm_nodes_power(BOTH_START, end_of(b, a), BOTH_POWER, &axis->start);
-    gm_nodes_mirror(&axis->start);
+    gm_nodes_mirror(&axis->start, &axis->start);
     add_cuts(cuts, 4, axis);
     axis->fixed[axis->n_fixed++] = 0.0;
     end_axis(BOTH_TORQUE_MOST, axis);

@@ -7,15 +7,23 @@
 #include <math.h>
 
 /* Nodes of the automatic axes, chosen for the smallest error of the example at random
-   points between them; see axes.h. Kinks may add a few. The two torques next to zero are
-   where the flanks of meshes turn that carry next to nothing. */
+   points between them; see axes.h. Kinks may add a few.
+
+   A driving torque that rises from zero turns the flanks of one mesh after the other: one
+   that was driven by the drag behind it now carries. The loss dips below that of zero
+   torque and is back on its line when the last mesh has turned, at some 0.5 N.m of 250, a
+   little elsewhere at every speed. Two torques share this: the bottom of the dip and its
+   end. Below zero there is no dip, but the loss bends most there as well. X steps by what a
+   preselected path loses more or less while the meshes that both share lie on the other
+   flank: from the end of that step on it hardly changes. */
 #define SPEED_NODES 35
 #define SPEED_NODES_MAX 40
 #define SPEED_SHARE 0.006 /* even steps below 40 rpm of 6500 */
 #define OVERSPEED_NODES 4 /* of a preselected path that turns faster than its maximum */
-#define TORQUE_NODES 13
+#define TORQUE_NODES 14   /* of each sign, with zero */
 #define TORQUE_POWER 1.8
-#define TORQUE_FLANK 0.0012 /* of the largest torque: 0.3 of 250 N.m */
+#define TORQUE_DIP 0.00048  /* of the largest torque: 0.12 of 250 N.m */
+#define TORQUE_FLANK 0.0036 /* 0.9 of 250 N.m */
 #define FREE_NODES 21       /* N and R: path speed */
 #define FREE_OUTPUT_NODES 20
 #define FREE_POWER 2.0
@@ -23,8 +31,9 @@
 #define COUPLING_POWER 3.0
 #define BOTH_SPEED_NODES 4
 #define BOTH_SPEED_POWER 2.0
-#define BOTH_TORQUE_NODES 7
+#define BOTH_TORQUE_NODES 7 /* below zero; above, the flank takes the place of one */
 #define BOTH_TORQUE_POWER 1.3
+#define BOTH_TORQUE_FLANK 0.012 /* 3 of 250 N.m */
 #define MAX_KINKS 8
 
 typedef struct builder {
@@ -159,6 +168,14 @@ static gm_status speed_axis(builder *b, int p, int number, gm_nodes *nodes)
     return GM_OK;
 }
 
+/* Two kinks may move their neighbours; more would tear the axis open. */
+static void include_kinks(const double *kinks, int n, gm_nodes *nodes)
+{
+    int most = TORQUE_NODES + (n > 2 ? n - 2 : 0);
+    for (int k = 0; k < n; k++)
+        gm_nodes_include(kinks[k], most, nodes);
+}
+
 /* Torques of a path in a gear, both signs. */
 static gm_status torque_axis(builder *b, int p, int number, gm_nodes *nodes)
 {
@@ -166,18 +183,20 @@ static gm_status torque_axis(builder *b, int p, int number, gm_nodes *nodes)
     if (b->options->torque_step > 0) {
         gm_status status =
             gm_nodes_uniform(max, b->options->torque_step, "torque", nodes, b->error);
-        if (status != GM_OK)
-            return status;
-    } else {
-        gm_nodes_power(TORQUE_NODES, max, TORQUE_POWER, nodes);
-        gm_nodes_include(TORQUE_FLANK * max, TORQUE_NODES + 1, nodes);
-        int n = b->plant->is->kink_torques(b->plant->self, p, number, MAX_KINKS, kinks);
-        /* Two kinks may move their neighbours; more would tear the axis open. */
-        int most = TORQUE_NODES + (n > 2 ? n - 1 : 1);
-        for (int k = 0; k < n; k++)
-            gm_nodes_include(kinks[k], most, nodes);
+        if (status == GM_OK)
+            gm_nodes_mirror(nodes, nodes);
+        return status;
     }
-    gm_nodes_mirror(nodes);
+    gm_nodes driven;
+    int n = b->plant->is->kink_torques(b->plant->self, p, number, MAX_KINKS, kinks);
+    gm_nodes_power(TORQUE_NODES - 1, max, TORQUE_POWER, &driven);
+    gm_nodes_power(TORQUE_NODES - 2, max, TORQUE_POWER, nodes);
+    gm_nodes_add(TORQUE_FLANK * max, TORQUE_NODES, &driven);
+    gm_nodes_add(TORQUE_FLANK * max, TORQUE_NODES, nodes);
+    gm_nodes_add(TORQUE_DIP * max, TORQUE_NODES, nodes);
+    include_kinks(kinks, n, &driven);
+    include_kinks(kinks, n, nodes);
+    gm_nodes_mirror(&driven, nodes);
     return GM_OK;
 }
 
@@ -218,7 +237,7 @@ static gm_status plan_coupling(builder *b)
        rises over the first cell, which is that of P and D: P(0) holds the jump. */
     gm_nodes_power(COUPLING_NODES, 2.0 * b->map->speed_max, COUPLING_POWER, &b->axis[0]);
     gm_nodes_include(b->first_speed, COUPLING_NODES + 1, &b->axis[0]);
-    gm_nodes_mirror(&b->axis[0]);
+    gm_nodes_mirror(&b->axis[0], &b->axis[0]);
     gm_status status = add_table(b, &key, 1, &unit.table);
     return status != GM_OK ? status : add_unit(b, unit);
 }
@@ -302,6 +321,15 @@ static gm_status plan_drag(builder *b, int p, int direction, int output_directio
     return status != GM_OK ? status : add_unit(b, unit);
 }
 
+static void both_torque_axis(double max, gm_nodes *nodes)
+{
+    gm_nodes driven;
+    gm_nodes_power(BOTH_TORQUE_NODES, max, BOTH_TORQUE_POWER, &driven);
+    gm_nodes_power(BOTH_TORQUE_NODES - 1, max, BOTH_TORQUE_POWER, nodes);
+    gm_nodes_add(BOTH_TORQUE_FLANK * max, BOTH_TORQUE_NODES, nodes);
+    gm_nodes_mirror(&driven, nodes);
+}
+
 static gm_status plan_both(builder *b, const int *gear, int direction)
 {
     double low, high;
@@ -310,8 +338,7 @@ static gm_status plan_both(builder *b, const int *gear, int direction)
         gm_sweep_configuration_key(GM_BOTH_LOADED, b->map, gear, direction);
     gm_nodes_power(BOTH_SPEED_NODES, b->map->speed_max / high, BOTH_SPEED_POWER,
                    &b->axis[0]);
-    gm_nodes_power(BOTH_TORQUE_NODES, b->map->torque_max, BOTH_TORQUE_POWER, &b->axis[1]);
-    gm_nodes_mirror(&b->axis[1]);
+    both_torque_axis(b->map->torque_max, &b->axis[1]);
     b->axis[2] = b->axis[1];
     gm_unit unit = {GM_UNIT_BOTH, 3, 0, -1};
     gm_status status = add_table(b, &key, 3, &unit.table);

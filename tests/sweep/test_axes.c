@@ -139,7 +139,7 @@ static void mirrored_axis_is_odd(void **state)
 {
     (void)state;
     gm_nodes_power(14, 250.0, 3.0, &nodes);
-    gm_nodes_mirror(&nodes);
+    gm_nodes_mirror(&nodes, &nodes);
     assert_int_equal(nodes.n, 27);
     assert_true(nodes.x[13] == 0.0);
     for (int i = 0; i < 27; i++)

@@ -125,9 +125,12 @@ static void load_loss_is_exactly_zero_without_load(void **state)
     (void)state;
     for (int n = 0; n < two.map->n_tables; n++) {
         const gm_map_table *t = &two.map->tables[n];
+        int zero = 0;
+        while (t->key.symbol == GM_LOAD_LOSS && t->x[1][zero] < 0.0)
+            zero++;
         for (int i = 0; t->key.symbol == GM_LOAD_LOSS && i < t->n[0]; i++) {
-            assert_true(t->x[1][t->n[1] / 2] == 0.0);
-            assert_true(t->value[i * t->n[1] + t->n[1] / 2] == 0.0);
+            assert_true(t->x[1][zero] == 0.0);
+            assert_true(t->value[i * t->n[1] + zero] == 0.0);
         }
     }
 }
