@@ -13,8 +13,8 @@
    that was driven by the drag behind it now carries. The loss dips below that of zero
    torque and is back on its line when the last mesh has turned, at some 0.5 N.m of 250, a
    little elsewhere at every speed. Two torques share this: the bottom of the dip and its
-   end. Below zero there is no dip, but the loss bends most there as well. X steps by what a
-   preselected path loses more or less while the meshes that both share lie on the other
+   end. Below zero there is no dip, but the loss bends most there as well. X steps by what
+   a preselected path loses more or less while the meshes that both share lie on the other
    flank: from the end of that step on it hardly changes. */
 #define SPEED_NODES 35
 #define SPEED_NODES_MAX 40
