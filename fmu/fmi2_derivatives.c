@@ -29,7 +29,7 @@ static fmi2Status take_known(fmi2_instance *f, unsigned vr, double rate, bool in
     char name[FMI2_NAME_SIZE];
     if (find(f, vr, &r))
         return fmi2Error;
-    if (!gm_gradient_is_known(r, initial))
+    if (!gm_gradient_is_known(gm_model_map(), r, initial))
         return fmi2_fail(f, function, "%s is neither an input nor a %s",
                          fmi2_variable_name(r, name), initial ? "start value" : "state");
     if (!gm_number_is_finite(rate))
@@ -47,7 +47,7 @@ static fmi2Status check_unknowns(fmi2_instance *f, const fmi2ValueReference vr[]
     for (size_t i = 0; i < n; i++) {
         if (find(f, vr[i], &r))
             return fmi2Error;
-        if (gm_variables[r.id].causality != GM_CAUSALITY_OUTPUT)
+        if (gm_interface_causality(gm_model_map(), r) != GM_CAUSALITY_OUTPUT)
             return fmi2_fail(f, function, "%s is not an output",
                              fmi2_variable_name(r, name));
     }

@@ -23,7 +23,7 @@ static fmi2_instance *enter(fmi2Component c, const char *function, unsigned phas
 
 static int n_states(void)
 {
-    return gm_states_count(gm_model_map()->n_paths);
+    return gm_states_count(gm_model_map());
 }
 
 static int n_indicators(void)
@@ -154,7 +154,7 @@ fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component c, fmi2Real x_nominal
               nx, n_states());
     if (!f)
         return fmi2Error;
-    gm_states_nominals(gm_model_map()->n_paths, x_nominal);
+    gm_states_nominals(gm_model_map(), x_nominal);
     return fmi2OK;
 }
 

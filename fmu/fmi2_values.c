@@ -29,6 +29,7 @@ static fmi2Status refuse_value(fmi2_instance *f, const char *function, gm_verdic
     const gm_variable *v = &gm_variables[reference.id];
     char name[FMI2_NAME_SIZE];
     double x = v->type == GM_TYPE_REAL ? value.real : value.integer;
+    double min = gm_interface_min(gm_model_map(), reference);
     fmi2_variable_name(reference, name);
     switch (verdict) {
     case GM_VERDICT_READ_ONLY:
@@ -42,9 +43,9 @@ static fmi2Status refuse_value(fmi2_instance *f, const char *function, gm_verdic
                              : "after initialisation");
     case GM_VERDICT_RANGE:
         if (v->max < GM_FREE)
-            return fmi2_fail(f, function, "%s = %g is not within %g to %g", name, x,
-                             v->min, v->max);
-        return fmi2_fail(f, function, "%s = %g is smaller than %g", name, x, v->min);
+            return fmi2_fail(f, function, "%s = %g is not within %g to %g", name, x, min,
+                             v->max);
+        return fmi2_fail(f, function, "%s = %g is smaller than %g", name, x, min);
     default:
         return fmi2_fail(f, function, "%s = %g is not a finite number", name, x);
     }
@@ -57,7 +58,7 @@ static fmi2Status set_one(fmi2_instance *f, const char *function, gm_type carrie
     gm_verdict verdict = gm_run_find(gm_model_map(), vr, carrier, &reference);
     if (verdict)
         return refuse_reference(f, function, verdict, vr, carrier, reference);
-    verdict = gm_run_set(&f->run, reference, value);
+    verdict = gm_run_set(gm_model_map(), &f->run, reference, value);
     return verdict ? refuse_value(f, function, verdict, reference, value) : fmi2OK;
 }
 
@@ -206,10 +207,9 @@ static fmi2Status set_rate(fmi2_instance *f, unsigned vr, int order, double rate
     if (!gm_number_is_finite(rate))
         return fmi2_fail(f, function, "derivative %g of %s is not a finite number", rate,
                          name);
-    if (gm_variables[reference.id].causality != GM_CAUSALITY_INPUT)
+    if (gm_interface_causality(gm_model_map(), reference) != GM_CAUSALITY_INPUT)
         return fmi2_fail(f, function, "%s is not an input", name);
-    /* The oil temperature has no influence within a step, so its slope has none. */
-    (void)gm_component_set_rate(&f->run.component, reference, rate);
+    gm_component_set_rate(&f->run.component, reference, rate);
     return fmi2OK;
 }
 
@@ -238,7 +238,7 @@ static fmi2Status get_rate(fmi2_instance *f, unsigned vr, int order, double *rat
     if (verdict)
         return refuse_reference(f, function, verdict, vr, GM_TYPE_REAL, reference);
     fmi2_variable_name(reference, name);
-    if (gm_variables[reference.id].causality != GM_CAUSALITY_OUTPUT)
+    if (gm_interface_causality(gm_model_map(), reference) != GM_CAUSALITY_OUTPUT)
         return fmi2_fail(f, function, "%s is not an output", name);
     if (order == 1 && gm_run_rate(gm_model_map(), &f->run, reference, rate) == 0)
         return fmi2OK;

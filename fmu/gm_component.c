@@ -12,17 +12,28 @@ static gm_reduced_params params_of(const gm_component *c)
     return params;
 }
 
-static gm_reduced_inputs inputs_of(const gm_component *c)
+/* Inputs over the next h seconds; 0: at this instant. A torque that goes out is none. */
+static gm_reduced_inputs inputs_of(const gm_reduced_map *map, const gm_component *c,
+                                   gm_real h)
 {
-    gm_reduced_inputs inputs = {
-        .output_tau = c->value[GM_OUTPUT_TAU][0].real,
-        .output_tau_rate = c->output_tau_rate,
-        .oil_temperature = c->value[GM_OIL_TEMPERATURE][0].real,
-    };
+    gm_reduced_inputs inputs = {.oil_temperature = c->value[GM_OIL_TEMPERATURE][0].real};
+    if (map->prescribed[GM_OUTPUT_FLANGE]) {
+        inputs.w[GM_OUTPUT_FLANGE] = c->value[GM_OUTPUT_W][0].real;
+        inputs.a[GM_OUTPUT_FLANGE] =
+            c->value[GM_OUTPUT_A][0].real + h / 2 * c->output_rate;
+    } else {
+        inputs.output_tau = c->value[GM_OUTPUT_TAU][0].real;
+        inputs.output_tau_rate = c->output_rate;
+    }
     for (int p = 0; p < GM_MAX_PATHS; p++) {
-        inputs.path_tau[p] = c->value[GM_PATH_TAU][p].real;
-        inputs.path_tau_rate[p] = c->path_tau_rate[p];
         inputs.gear[p] = c->value[GM_PATH_GEAR][p].integer;
+        if (map->prescribed[p]) {
+            inputs.w[p] = c->value[GM_PATH_W][p].real;
+            inputs.a[p] = c->value[GM_PATH_A][p].real + h / 2 * c->path_rate[p];
+        } else {
+            inputs.path_tau[p] = c->value[GM_PATH_TAU][p].real;
+            inputs.path_tau_rate[p] = c->path_rate[p];
+        }
     }
     return inputs;
 }
@@ -68,17 +79,29 @@ static void publish(const gm_reduced_map *map, gm_component *c)
     c->outputs_pending = true;
 }
 
+/* Angles have no influence on the motion: those that are prescribed go on from where they
+ * were set. */
+static void take_angles(const gm_reduced_map *map, gm_component *c)
+{
+    if (map->prescribed[GM_OUTPUT_FLANGE])
+        c->state.phi_o = c->value[GM_OUTPUT_PHI][0].real;
+    for (int p = 0; p < map->n_paths; p++)
+        if (map->prescribed[p])
+            c->state.path[p].phi = c->value[GM_PATH_PHI][p].real;
+}
+
 /* Flags of an update, which counts as a start or step. */
 static int find_modes(const gm_reduced_map *map, gm_component *c, int *jumped)
 {
     gm_reduced_params params = params_of(c);
-    gm_reduced_inputs inputs = inputs_of(c);
+    gm_reduced_inputs inputs = inputs_of(map, c, 0.0);
+    take_angles(map, c);
     return gm_reduced_modes_update(map, &params, &inputs, &c->state, &c->modes, jumped);
 }
 
 int gm_component_start(const gm_reduced_map *map, gm_component *c)
 {
-    gm_reduced_inputs inputs = inputs_of(c);
+    gm_reduced_inputs inputs = inputs_of(map, c, 0.0);
     gm_reduced_state state;
     gm_real w[GM_MAX_PATHS];
     for (int p = 0; p < GM_MAX_PATHS; p++)
@@ -108,17 +131,26 @@ int gm_component_start(const gm_reduced_map *map, gm_component *c)
     return flags;
 }
 
+/* Inputs with a slope, h seconds later. */
+static void lead_inputs(const gm_reduced_map *map, gm_component *c, gm_real h)
+{
+    const bool given = map->prescribed[GM_OUTPUT_FLANGE] != 0;
+    c->value[given ? GM_OUTPUT_A : GM_OUTPUT_TAU][0].real += c->output_rate * h;
+    for (int p = 0; p < map->n_paths; p++)
+        c->value[map->prescribed[p] ? GM_PATH_A : GM_PATH_TAU][p].real +=
+            c->path_rate[p] * h;
+}
+
 int gm_component_step(const gm_reduced_map *map, gm_component *c, gm_real h)
 {
     gm_reduced_params params = params_of(c);
-    gm_reduced_inputs inputs = inputs_of(c);
+    gm_reduced_inputs inputs = inputs_of(map, c, h);
+    take_angles(map, c);
     int flags = gm_reduced_step(map, &params, &inputs, h, &c->state);
     if (flags & GM_FLAG_NOT_FINITE)
         return flags;
     c->flags = flags;
-    c->value[GM_OUTPUT_TAU][0].real += c->output_tau_rate * h;
-    for (int p = 0; p < map->n_paths; p++)
-        c->value[GM_PATH_TAU][p].real += c->path_tau_rate[p] * h;
+    lead_inputs(map, c, h);
     publish(map, c);
     return flags;
 }
@@ -137,7 +169,7 @@ int gm_component_update(const gm_reduced_map *map, gm_component *c, bool *jumped
 bool gm_component_indicators(const gm_reduced_map *map, gm_component *c, gm_real *z)
 {
     gm_reduced_params params = params_of(c);
-    gm_reduced_inputs inputs = inputs_of(c);
+    gm_reduced_inputs inputs = inputs_of(map, c, 0.0);
     int flags =
         gm_reduced_modes_indicators(map, &params, &inputs, &c->modes, &c->state, z);
     return !(flags & GM_FLAG_NOT_FINITE);
@@ -147,7 +179,7 @@ bool gm_component_derivative(const gm_reduced_map *map, gm_component *c,
                              const gm_reduced_change *by, gm_reduced_outputs *derivative)
 {
     gm_reduced_params params = params_of(c);
-    gm_reduced_inputs inputs = inputs_of(c);
+    gm_reduced_inputs inputs = inputs_of(map, c, 0.0);
     int flags = gm_reduced_derivative(
         map, &params, &inputs, c->exchange ? &c->modes : NULL, &c->state, by, derivative);
     return !(flags & GM_FLAG_NOT_FINITE);
@@ -175,21 +207,18 @@ void gm_component_set(gm_component *c, gm_reference reference, gm_value value)
     c->outputs_pending = true;
 }
 
-bool gm_component_set_rate(gm_component *c, gm_reference reference, gm_real rate)
+void gm_component_set_rate(gm_component *c, gm_reference reference, gm_real rate)
 {
-    if (reference.id == GM_OUTPUT_TAU)
-        c->output_tau_rate = rate;
-    else if (reference.id == GM_PATH_TAU)
-        c->path_tau_rate[reference.path] = rate;
-    else
-        return false;
-    return true;
+    if (reference.id == GM_OUTPUT_TAU || reference.id == GM_OUTPUT_A)
+        c->output_rate = rate;
+    else if (reference.id == GM_PATH_TAU || reference.id == GM_PATH_A)
+        c->path_rate[reference.path] = rate;
 }
 
 static int observe(const gm_reduced_map *map, gm_component *c, gm_reduced_outputs *out)
 {
     gm_reduced_params params = params_of(c);
-    gm_reduced_inputs inputs = inputs_of(c);
+    gm_reduced_inputs inputs = inputs_of(map, c, 0.0);
     if (c->exchange)
         return gm_reduced_modes_outputs(map, &params, &inputs, &c->modes, &c->state, out);
     return gm_reduced_outputs_at(map, &params, &inputs, &c->state, out);
@@ -197,9 +226,9 @@ static int observe(const gm_reduced_map *map, gm_component *c, gm_reduced_output
 
 static gm_real flange_power(const gm_reduced_map *map, const gm_component *c)
 {
-    gm_real sum = c->value[GM_OUTPUT_TAU][0].real * c->state.w_o;
+    gm_real sum = c->value[GM_OUTPUT_TAU][0].real * c->value[GM_OUTPUT_W][0].real;
     for (int p = 0; p < map->n_paths; p++)
-        sum += c->value[GM_PATH_TAU][p].real * c->state.path[p].w;
+        sum += c->value[GM_PATH_TAU][p].real * c->value[GM_PATH_W][p].real;
     return sum;
 }
 
@@ -210,16 +239,34 @@ static bool is_outside(const gm_component *c, int flags)
                        : ((flags | c->flags) & GM_FLAG_OUT_OF_MAP) != 0;
 }
 
+/* What each flange tells beside its speed: the acceleration, or the torque that a
+ * prescribed motion takes. */
+static void take_flanges(const gm_reduced_map *map, const gm_reduced_outputs *out,
+                         gm_component *c)
+{
+    if (map->prescribed[GM_OUTPUT_FLANGE])
+        c->value[GM_OUTPUT_TAU][0].real = out->tau[GM_OUTPUT_FLANGE];
+    else
+        c->value[GM_OUTPUT_A][0].real = out->a_o;
+    for (int p = 0; p < map->n_paths; p++)
+        if (map->prescribed[p])
+            c->value[GM_PATH_TAU][p].real = out->tau[p];
+        else
+            c->value[GM_PATH_A][p].real = out->a[p];
+}
+
 /* Accelerations, losses and energies of the state under the present inputs. */
 static bool evaluate(const gm_reduced_map *map, gm_component *c)
 {
     gm_reduced_outputs out;
     int flags = observe(map, c, &out);
+    if (flags & GM_FLAG_NOT_FINITE)
+        return false;
+    take_flanges(map, &out, c);
     gm_real power = flange_power(map, c);
-    if (flags & GM_FLAG_NOT_FINITE || power - power != 0.0)
+    if (power - power != 0.0)
         return false;
     c->value[GM_POWER][0].real = power;
-    c->value[GM_OUTPUT_A][0].real = out.a_o;
     c->value[GM_OUTPUT_LOSS_TORQUE][0].real = out.output_loss_torque;
     c->value[GM_LOSS_POWER][0].real = out.loss_power;
     c->value[GM_KINETIC_ENERGY][0].real = out.kinetic_energy;
@@ -228,7 +275,6 @@ static bool evaluate(const gm_reduced_map *map, gm_component *c)
     c->value[GM_RECOMMENDED_STEP][0].real = out.step;
     c->value[GM_OUT_OF_MAP][0].integer = is_outside(c, flags);
     for (int p = 0; p < map->n_paths; p++) {
-        c->value[GM_PATH_A][p].real = out.a[p];
         c->value[GM_PATH_TWIST_RATE][p].real = out.twist_rate[p];
         c->value[GM_PATH_INERTIA][p].real = out.inertia[p];
         c->value[GM_PATH_LOSS_TORQUE][p].real = out.path_loss_torque[p];
@@ -238,10 +284,15 @@ static bool evaluate(const gm_reduced_map *map, gm_component *c)
 }
 
 /* Does the variable come from evaluate, not from the state? */
-static bool is_evaluated(gm_variable_id id)
+static bool is_evaluated(const gm_reduced_map *map, gm_reference reference)
 {
-    switch (id) {
+    switch (reference.id) {
     case GM_OUTPUT_A:
+    case GM_PATH_A:
+        return !gm_interface_is_swapped(map, reference);
+    case GM_OUTPUT_TAU:
+    case GM_PATH_TAU:
+        return gm_interface_is_swapped(map, reference);
     case GM_OUTPUT_LOSS_TORQUE:
     case GM_POWER:
     case GM_LOSS_POWER:
@@ -251,7 +302,6 @@ static bool is_evaluated(gm_variable_id id)
     case GM_RECOMMENDED_STEP:
     case GM_PATH_INERTIA:
     case GM_OUT_OF_MAP:
-    case GM_PATH_A:
     case GM_PATH_TWIST_RATE:
     case GM_PATH_LOSS_TORQUE:
         return true;
@@ -263,7 +313,7 @@ static bool is_evaluated(gm_variable_id id)
 bool gm_component_get(const gm_reduced_map *map, gm_component *c, gm_reference reference,
                       gm_value *value)
 {
-    if (is_evaluated(reference.id) && c->outputs_pending && !evaluate(map, c))
+    if (is_evaluated(map, reference) && c->outputs_pending && !evaluate(map, c))
         return false;
     *value = c->value[reference.id][reference.path];
     return true;

@@ -5,13 +5,14 @@
  * and messages are gm_run.h and fmi2*.c.
  *
  * A torque input u set with slope u' is the signal u + u' t from then on; after a step of
- * h it stands at u + u' h and keeps its slope until either is set again.
+ * h it stands at u + u' h and keeps its slope until either is set again. Where motion is
+ * prescribed the acceleration is such a signal, and speed and angle go on as it says.
  */
 #ifndef GM_COMPONENT_H
 #define GM_COMPONENT_H
 
+#include "gm_interface.h"
 #include "gm_reduced_gradient.h"
-#include "gm_variables.h"
 
 typedef union gm_value {
     gm_real real;
@@ -20,7 +21,9 @@ typedef union gm_value {
 
 typedef struct gm_component {
     gm_value value[GM_VARIABLES][GM_MAX_PATHS]; /* [id][path], path 0 where none */
-    gm_real output_tau_rate, path_tau_rate[GM_MAX_PATHS];
+    gm_real
+        output_rate; /* slope of the flange's torque; of its acceleration where that is */
+    gm_real path_rate[GM_MAX_PATHS]; /* prescribed */
     gm_reduced_state state;
     gm_reduced_modes modes; /* if exchange */
     bool exchange;          /* a solver outside moves the states */
@@ -57,8 +60,10 @@ void gm_component_move(const gm_reduced_map *map, gm_component *c);
 /** Store a value; gm_run_set has checked that it may be set. */
 void gm_component_set(gm_component *c, gm_reference reference, gm_value value);
 
-/** Slope of a torque input [N.m/s]; false when the variable is not one. */
-bool gm_component_set_rate(gm_component *c, gm_reference reference, gm_real rate);
+/** Slope of an input [1/s of its unit]. Those of torques and accelerations count; angle
+ *  and speed have the slopes that speed and acceleration say, and the oil temperature has
+ *  no influence within a step. */
+void gm_component_set_rate(gm_component *c, gm_reference reference, gm_real rate);
 
 /** Value of a variable at this instant; false when it overflowed. */
 bool gm_component_get(const gm_reduced_map *map, gm_component *c, gm_reference reference,

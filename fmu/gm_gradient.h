@@ -15,7 +15,8 @@ typedef struct gm_rates {
 
 /** Whether the variable may change on its own: a Real input, a state; at the start
  *  (initial) a Real start value instead of a state. */
-bool gm_gradient_is_known(gm_reference reference, bool initial);
+bool gm_gradient_is_known(const gm_reduced_map *map, gm_reference reference,
+                          bool initial);
 
 /** Rates of all Real outputs, from those of the knowns, exactly; false on overflow. The
  *  component has to be started. */

@@ -25,7 +25,7 @@ void gm_run_reset(const gm_reduced_map *map, gm_run *run)
 gm_verdict gm_run_find(const gm_reduced_map *map, unsigned vr, gm_type carrier,
                        gm_reference *reference)
 {
-    if (!gm_variable_find(vr, map->n_paths, reference))
+    if (!gm_interface_find(map, vr, reference))
         return GM_VERDICT_UNKNOWN;
     if (gm_variable_carrier(gm_variables[reference->id].type) != carrier)
         return GM_VERDICT_TYPE;
@@ -38,11 +38,12 @@ gm_verdict gm_run_find(const gm_reduced_map *map, unsigned vr, gm_type carrier,
  * either, but FMPy (0.3.x) does when it looks for events, also with values from beyond
  * the event. A gear is no more than a command that the next event reads, so that is
  * harmless and let pass. */
-static gm_verdict settable(const gm_run *run, const gm_variable *v)
+static gm_verdict settable(const gm_reduced_map *map, const gm_run *run, gm_reference r)
 {
-    if (v->causality == GM_CAUSALITY_INPUT)
+    const gm_variable *v = &gm_variables[r.id];
+    if (gm_interface_causality(map, r) == GM_CAUSALITY_INPUT)
         return GM_VERDICT_OK;
-    if (v->initial != GM_INITIAL_EXACT)
+    if (gm_interface_initial(map, r) != GM_INITIAL_EXACT)
         return GM_VERDICT_READ_ONLY;
     if (run->phase & (GM_PHASE_INSTANTIATED | GM_PHASE_INITIALISATION))
         return GM_VERDICT_OK;
@@ -51,16 +52,18 @@ static gm_verdict settable(const gm_run *run, const gm_variable *v)
                : GM_VERDICT_PHASE;
 }
 
-gm_verdict gm_run_set(gm_run *run, gm_reference reference, gm_value value)
+gm_verdict gm_run_set(const gm_reduced_map *map, gm_run *run, gm_reference reference,
+                      gm_value value)
 {
     const gm_variable *v = &gm_variables[reference.id];
-    gm_verdict verdict = settable(run, v);
+    gm_verdict verdict = settable(map, run, reference);
     if (verdict)
         return verdict;
     gm_real x = v->type == GM_TYPE_REAL ? value.real : (gm_real)value.integer;
     if (!gm_number_is_finite(x))
         return GM_VERDICT_NOT_FINITE;
-    if ((v->min > -GM_FREE && x < v->min) || (v->max < GM_FREE && x > v->max))
+    gm_real min = gm_interface_min(map, reference);
+    if ((min > -GM_FREE && x < min) || (v->max < GM_FREE && x > v->max))
         return GM_VERDICT_RANGE;
     gm_component_set(&run->component, reference, value);
     run->update_due = true;
@@ -89,7 +92,7 @@ gm_verdict gm_run_rate(const gm_reduced_map *map, gm_run *run, gm_reference refe
                        gm_real *rate)
 {
     gm_value value;
-    if (!gm_states_derivative_of(reference, &reference))
+    if (!gm_states_derivative_of(map, reference, &reference))
         return GM_VERDICT_UNKNOWN;
     gm_verdict verdict = gm_run_get(map, run, reference, &value);
     if (verdict == GM_VERDICT_OK)
@@ -107,7 +110,7 @@ gm_verdict gm_run_update(const gm_reduced_map *map, gm_run *run, bool *jumped)
 
 gm_verdict gm_run_set_states(const gm_reduced_map *map, gm_run *run, const gm_real *x)
 {
-    for (int i = 0, n = gm_states_count(map->n_paths); i < n; i++)
+    for (int i = 0, n = gm_states_count(map); i < n; i++)
         if (!gm_number_is_finite(x[i]))
             return GM_VERDICT_NOT_FINITE;
     gm_states_set(map, &run->component, x);

@@ -58,7 +58,8 @@ gm_verdict gm_run_find(const gm_reduced_map *map, unsigned vr, gm_type carrier,
                        gm_reference *reference);
 
 /** Set if variable, phase and value allow it. */
-gm_verdict gm_run_set(gm_run *run, gm_reference reference, gm_value value);
+gm_verdict gm_run_set(const gm_reduced_map *map, gm_run *run, gm_reference reference,
+                      gm_value value);
 
 /** Get; in initialisation the start is computed anew when a start value changed. */
 gm_verdict gm_run_get(const gm_reduced_map *map, gm_run *run, gm_reference reference,

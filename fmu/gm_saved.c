@@ -42,7 +42,7 @@ static void save_values(const gm_component *c, gm_saved *s)
             s->value[id][p] = gm_variables[id].type == GM_TYPE_REAL
                                   ? c->value[id][p].real
                                   : (gm_real)c->value[id][p].integer;
-    s->output_tau_rate = c->output_tau_rate;
+    s->output_rate = c->output_rate;
     s->flags = c->flags;
     s->start_pending = c->start_pending;
     s->outputs_pending = c->outputs_pending;
@@ -77,7 +77,7 @@ static void save_path(const gm_run *run, int p, gm_saved_path *s)
     s->twist = path->twist;
     s->mode = path->mode;
     s->gear = path->gear;
-    s->tau_rate = run->component.path_tau_rate[p];
+    s->rate = run->component.path_rate[p];
     s->gear_reported = run->gear_reported[p];
     s->reported_gear = run->reported_gear[p];
 }
@@ -138,7 +138,7 @@ static void restore_values(const gm_saved *s, gm_component *c)
                 c->value[id][p].real = s->value[id][p];
             else
                 c->value[id][p].integer = (int)s->value[id][p];
-    c->output_tau_rate = s->output_tau_rate;
+    c->output_rate = s->output_rate;
     c->flags = s->flags;
     c->start_pending = s->start_pending != 0;
     c->outputs_pending = s->outputs_pending != 0;
@@ -173,7 +173,7 @@ static void restore_path(const gm_saved_path *s, int p, gm_run *run)
     path->twist = s->twist;
     path->mode = s->mode;
     path->gear = s->gear;
-    run->component.path_tau_rate[p] = s->tau_rate;
+    run->component.path_rate[p] = s->rate;
     run->gear_reported[p] = s->gear_reported != 0;
     run->reported_gear[p] = s->reported_gear;
 }

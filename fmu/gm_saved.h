@@ -21,7 +21,7 @@
 #include "gm_run.h"
 
 typedef struct gm_saved_path {
-    gm_real phi, w, twist, tau_rate;
+    gm_real phi, w, twist, rate;
     int32_t mode, gear, gear_reported, reported_gear;
 } gm_saved_path;
 
@@ -31,7 +31,7 @@ typedef struct gm_saved {
     uint32_t magic, version;
     uint64_t guid, sum;
     gm_real value[GM_VARIABLES][GM_MAX_PATHS]; /* integers too: exact */
-    gm_real output_tau_rate, phi_o, w_o, brake, work, loss_energy;
+    gm_real output_rate, phi_o, w_o, brake, work, loss_energy;
     gm_real time, stop_time, last_step;
     gm_saved_path path[GM_MAX_PATHS];
     int32_t phase, flags, start_pending, outputs_pending;

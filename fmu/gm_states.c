@@ -13,47 +13,32 @@ static const pair pairs[] = {
 };
 enum { N_PAIRS = sizeof pairs / sizeof *pairs };
 
-static int copies(const pair *p, int n_paths)
-{
-    return gm_variables[p->state].scope == GM_SCOPE_PATH ? n_paths : 1;
-}
-
-int gm_states_count(int n_paths)
+int gm_states_list(const gm_reduced_map *map, gm_reference states[GM_MAX_STATES])
 {
     int n = 0;
-    for (int i = 0; i < N_PAIRS; i++)
-        n += copies(&pairs[i], n_paths);
+    for (int i = 0; i < N_PAIRS; i++) {
+        const gm_variable_id id = pairs[i].state;
+        const int copies = gm_variables[id].scope == GM_SCOPE_PATH ? map->n_paths : 1;
+        for (int p = 0; p < copies; p++) {
+            const gm_reference r = {id, p};
+            if (!gm_interface_is_swapped(map, r))
+                states[n++] = r;
+        }
+    }
     return n;
 }
 
-/* Pair that state i belongs to; *path receives which copy. */
-static const pair *find(int n_paths, int i, int *path)
+int gm_states_count(const gm_reduced_map *map)
 {
-    const pair *p = pairs;
-    for (; i >= copies(p, n_paths); p++)
-        i -= copies(p, n_paths);
-    *path = i;
-    return p;
+    gm_reference states[GM_MAX_STATES];
+    return gm_states_list(map, states);
 }
 
-gm_reference gm_states_variable(int n_paths, int i)
-{
-    gm_reference r;
-    r.id = find(n_paths, i, &r.path)->state;
-    return r;
-}
-
-gm_reference gm_states_derivative(int n_paths, int i)
-{
-    gm_reference r;
-    r.id = find(n_paths, i, &r.path)->derivative;
-    return r;
-}
-
-bool gm_states_derivative_of(gm_reference state, gm_reference *derivative)
+bool gm_states_derivative_of(const gm_reduced_map *map, gm_reference state,
+                             gm_reference *derivative)
 {
     for (int i = 0; i < N_PAIRS; i++)
-        if (pairs[i].state == state.id) {
+        if (pairs[i].state == state.id && !gm_interface_is_swapped(map, state)) {
             *derivative = (gm_reference){pairs[i].derivative, state.path};
             return true;
         }
@@ -62,34 +47,35 @@ bool gm_states_derivative_of(gm_reference state, gm_reference *derivative)
 
 void gm_states_get(const gm_reduced_map *map, const gm_component *c, gm_real *x)
 {
-    for (int i = 0, n = gm_states_count(map->n_paths); i < n; i++) {
-        gm_reference r = gm_states_variable(map->n_paths, i);
-        x[i] = c->value[r.id][r.path].real;
-    }
+    gm_reference states[GM_MAX_STATES];
+    for (int i = 0, n = gm_states_list(map, states); i < n; i++)
+        x[i] = c->value[states[i].id][states[i].path].real;
 }
 
 void gm_states_set(const gm_reduced_map *map, gm_component *c, const gm_real *x)
 {
-    for (int i = 0, n = gm_states_count(map->n_paths); i < n; i++) {
-        gm_reference r = gm_states_variable(map->n_paths, i);
-        c->value[r.id][r.path].real = x[i];
-    }
+    gm_reference states[GM_MAX_STATES];
+    for (int i = 0, n = gm_states_list(map, states); i < n; i++)
+        c->value[states[i].id][states[i].path].real = x[i];
     gm_component_move(map, c);
 }
 
 bool gm_states_rates(const gm_reduced_map *map, gm_component *c, gm_real *rates)
 {
-    for (int i = 0, n = gm_states_count(map->n_paths); i < n; i++) {
+    gm_reference states[GM_MAX_STATES], rate;
+    for (int i = 0, n = gm_states_list(map, states); i < n; i++) {
         gm_value value;
-        if (!gm_component_get(map, c, gm_states_derivative(map->n_paths, i), &value))
+        if (!gm_states_derivative_of(map, states[i], &rate) ||
+            !gm_component_get(map, c, rate, &value))
             return false;
         rates[i] = value.real;
     }
     return true;
 }
 
-void gm_states_nominals(int n_paths, gm_real *nominals)
+void gm_states_nominals(const gm_reduced_map *map, gm_real *nominals)
 {
-    for (int i = 0, n = gm_states_count(n_paths); i < n; i++)
-        nominals[i] = gm_variables[gm_states_variable(n_paths, i).id].nominal;
+    gm_reference states[GM_MAX_STATES];
+    for (int i = 0, n = gm_states_list(map, states); i < n; i++)
+        nominals[i] = gm_variables[states[i].id].nominal;
 }

@@ -35,7 +35,7 @@ static void fill_component(gm_component *c, bool yes)
                 c->value[id][p].real = number();
             else
                 c->value[id][p].integer = count();
-    c->output_tau_rate = number();
+    c->output_rate = number();
     c->flags = count();
     c->start_pending = yes;
     c->outputs_pending = yes;
@@ -57,7 +57,7 @@ static void fill(gm_run *run, bool yes)
     run->stop_time = number();
     run->last_step = number();
     for (int p = 0; p < GM_MAX_PATHS; p++) {
-        run->component.path_tau_rate[p] = number();
+        run->component.path_rate[p] = number();
         run->component.state.path[p] =
             (gm_path_state){number(), number(), number(), count(), count(), 0};
         run->gear_reported[p] = yes;
@@ -73,7 +73,7 @@ static void assert_same_component(const gm_component *a, const gm_component *b)
                 assert_true(a->value[id][p].real == b->value[id][p].real);
             else
                 assert_int_equal(a->value[id][p].integer, b->value[id][p].integer);
-    assert_true(a->output_tau_rate == b->output_tau_rate);
+    assert_true(a->output_rate == b->output_rate);
     assert_int_equal(a->flags, b->flags);
     assert_int_equal(a->start_pending, b->start_pending);
     assert_int_equal(a->outputs_pending, b->outputs_pending);
@@ -88,7 +88,7 @@ static void assert_same_path(const gm_run *a, const gm_run *b, int p)
 {
     const gm_path_state *x = &a->component.state.path[p],
                         *y = &b->component.state.path[p];
-    assert_true(a->component.path_tau_rate[p] == b->component.path_tau_rate[p]);
+    assert_true(a->component.path_rate[p] == b->component.path_rate[p]);
     assert_true(x->phi == y->phi);
     assert_true(x->w == y->w);
     assert_true(x->twist == y->twist);
