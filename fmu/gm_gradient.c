@@ -75,7 +75,8 @@ static gm_real power_rate(const gm_reduced_map *map, const gm_component *c,
     return sum;
 }
 
-/* What each flange tells: its acceleration, or the torque that a prescribed motion takes. */
+/* What each flange tells: its acceleration, or the torque that a prescribed motion takes.
+ */
 static void follow_flanges(const gm_reduced_map *map, const gm_reduced_outputs *o,
                            gm_rates *r)
 {

@@ -38,6 +38,11 @@ static const gm_option options[] = {
      .offset = offsetof(arguments, detailed),
      .help = "the detailed gearset itself as an FMU for Model Exchange, with the "
              "variables of the reduced one and its own behind them; nothing is compiled"},
+    {.kind = GM_OPTION_TEXT, .name = "speed-in", .value = "FLANGE[,...]",
+     .offset = GM_BAKE_OPTION(arguments, speed_in),
+     .help = "flanges (such as output, or odd) where phi, w and a are inputs and tau is an "
+             "output, as in Modelica's GeneralAngleToTorqueAdaptor; default: torque in, "
+             "speed out at all"},
     GM_BAKE_OPTIONS(arguments),
     GM_BAKE_C_OPTIONS(arguments),
     GM_JSON_OPTION(arguments),
@@ -121,6 +126,10 @@ static int run(const void *given)
     }
     if (is_c && a->detailed) {
         fputs("gearmap: --detailed is for FMUs\n", stderr);
+        return GM_EXIT_USAGE;
+    }
+    if ((is_c || a->detailed) && a->bake.speed_in) {
+        fputs("gearmap: --speed-in is for FMUs of maps\n", stderr);
         return GM_EXIT_USAGE;
     }
     if ((is_c || a->detailed) && a->passport) {

@@ -158,7 +158,8 @@ static gm_bake_options options_of(const gm_bake_settings *settings, const char *
                              .interpolation =
                                  gm_stage_is_monotone(settings->interpolation)
                                      ? GM_INTERPOLATION_MONOTONE
-                                     : GM_INTERPOLATION_LINEAR};
+                                     : GM_INTERPOLATION_LINEAR,
+                             .speed_in = settings->speed_in};
 }
 
 gm_status gm_stage_guid(const gm_map *map, const gm_bake_settings *settings,

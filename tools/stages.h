@@ -56,6 +56,7 @@ void gm_stage_sweep_clear(gm_sweep_stage *stage);
 typedef struct gm_bake_settings {
     const char *compiler;      /* NULL: the one that is found */
     const char *interpolation; /* its name */
+    const char *speed_in;      /* flanges whose speed is an input; NULL: none */
 } gm_bake_settings;
 
 /** True when there is an interpolation of this name; else a sentence on the standard

@@ -468,7 +468,7 @@ gm_status gm_detailed_description_write(const gm_detailed_subject *subject,
                  .n_motion = gm_motion_n_states(subject->motion)};
     gm_status status = map ? fill_map(subject->gearset, map, error)
                            : gm_fail(error, GM_ERR_MEMORY, "out of memory");
-    w.x.n = gm_bake_scalars(d->n_paths, w.x.all);
+    w.x.n = gm_bake_scalars(d->n_paths, &w.x.speed_in, w.x.all);
     for (int p = 0; p < d->n_paths; p++)
         w.x.first_gear[p] = gm_path_rest_gear(&d->paths[p]);
     if (status == GM_OK)

@@ -61,9 +61,34 @@ static const char *const use[] = {
     "the inertia of that flange.",
 };
 
-static void usage(gm_buffer *page)
+/* Flanges whose speed is an input, if there are any. */
+static void speed_in(gm_buffer *page, const gm_document *d)
+{
+    int n = 0;
+    for (int k = 0; k <= GM_MAX_PATHS; k++)
+        if (d->speed_in.flange[k])
+            gm_buffer_text(page, "%s<code>%s</code>",
+                           n++ ? ", "
+                               : "<p>In this component motion is an input and "
+                                 "torque is an output at: ",
+                           k < GM_MAX_PATHS ? d->map->paths[k].name : "output");
+    if (n)
+        gm_buffer_text(
+            page,
+            ". There <code>w</code> is the speed and <code>a</code> its derivative, "
+            "<code>phi</code> has no influence, and <code>tau</code> is the torque that "
+            "has to act on the gearset for this motion: what the gearset does to its "
+            "neighbour is -<code>tau</code>. In Co-Simulation a speed grows by "
+            "<code>a</code> over each step; a speed that is set to another value jumps, "
+            "and the impulse is in <code>work</code>. At rest such a flange feels no "
+            "friction of its own: its torque is what the springs and inertias "
+            "take. All else is as below.</p>\n");
+}
+
+static void usage(gm_buffer *page, const gm_document *d)
 {
     gm_page_heading(page, "Use");
+    speed_in(page, d);
     for (size_t i = 0; i < sizeof use / sizeof *use; i++)
         gm_buffer_text(page, "<p>%s</p>\n", use[i]);
 }
@@ -125,9 +150,8 @@ static void range(gm_buffer *page, const gm_document *d)
 
 /* ---- variables ---- */
 
-static void start_value(gm_buffer *page, const gm_map *map, scalar s)
+static void start_value(gm_buffer *page, const gm_map *map, scalar s, const variable *v)
 {
-    const variable *v = &gm_bake_variables[s.id];
     double start = v->start;
     if (v->causality != CAUSALITY_INPUT && v->initial != INITIAL_EXACT) {
         gm_buffer_text(page, "<td class=\"n\"></td>");
@@ -143,15 +167,14 @@ static void start_value(gm_buffer *page, const gm_map *map, scalar s)
         gm_buffer_text(page, "<td class=\"n\">1e30</td>");
 }
 
-static void variable_row(gm_buffer *page, const gm_map *map, scalar s)
+static void variable_row(gm_buffer *page, const gm_map *map, scalar s, const variable *v)
 {
     static const char *const type[] = {"Real", "Integer", "Boolean", "Enumeration",
                                        "Enumeration"};
-    const variable *v = &gm_bake_variables[s.id];
     gm_buffer_text(page, "<tr><td><code>%s%s%s</code></td><td>%s</td><td>%s</td>",
                    s.path < 0 ? "" : map->paths[s.path].name, s.path < 0 ? "" : ".",
                    v->name, type[v->type], v->unit);
-    start_value(page, map, s);
+    start_value(page, map, s, v);
     gm_buffer_text(page, "<td>");
     gm_page_escaped(page, v->description);
     gm_buffer_text(page, "%s</td></tr>\n",
@@ -161,16 +184,18 @@ static void variable_row(gm_buffer *page, const gm_map *map, scalar s)
                        : "");
 }
 
-static void variables_of(gm_buffer *page, const gm_map *map, int causality,
+static void variables_of(gm_buffer *page, const gm_document *d, int causality,
                          const char *heading)
 {
     scalar all[2 * N_VARIABLES];
-    int n = gm_bake_scalars(map->n_paths, all);
+    int n = gm_bake_scalars(d->map->n_paths, &d->speed_in, all);
     gm_page_heading(page, heading);
     gm_page_table(page, "name|type|unit|>start|meaning");
-    for (int i = 0; i < n; i++)
-        if (gm_bake_variables[all[i].id].causality == causality)
-            variable_row(page, map, all[i]);
+    for (int i = 0; i < n; i++) {
+        const variable v = gm_bake_variable(&d->speed_in, all[i]);
+        if (v.causality == causality)
+            variable_row(page, d->map, all[i], &v);
+    }
     gm_page_table_end(page);
 }
 
@@ -211,13 +236,13 @@ void gm_documentation_write(const gm_document *d, gm_buffer *page)
 {
     gm_page_begin(page, title_of(d->map));
     introduction(page, d->map);
-    usage(page);
+    usage(page, d);
     gear_table(page, d->map);
     range(page, d);
     gm_accuracy_write(d->passport, page);
-    variables_of(page, d->map, CAUSALITY_INPUT, "Inputs");
-    variables_of(page, d->map, CAUSALITY_OUTPUT, "Outputs");
-    variables_of(page, d->map, CAUSALITY_PARAMETER, "Parameters");
+    variables_of(page, d, CAUSALITY_INPUT, "Inputs");
+    variables_of(page, d, CAUSALITY_OUTPUT, "Outputs");
+    variables_of(page, d, CAUSALITY_PARAMETER, "Parameters");
     origin(page, d);
     gm_page_end(page);
 }

@@ -13,6 +13,7 @@ typedef struct gm_document {
     const gm_map *map;
     const char *guid;
     int monotone; /* interpolation */
+    gm_speed_in speed_in;
     const gm_passport *passport;
 } gm_document;
 

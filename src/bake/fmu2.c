@@ -18,6 +18,7 @@
 #include "bake/papers.h"
 #include "bake/picture.h"
 #include "bake/place.h"
+#include "bake/speed_in.h"
 #include "bake/tables.h"
 #include "base/alloc.h"
 #include "base/sha256.h"
@@ -33,7 +34,8 @@
 /* What the steps of one bake share. */
 typedef struct job {
     const gm_map *map;
-    const gm_reduced_map *reduced;
+    gm_reduced_map reduced; /* points into the view */
+    gm_speed_in speed_in;
     const gm_bake_options *options;
     gm_compiler compiler;
     gm_package package;
@@ -105,7 +107,7 @@ static gm_status describe(const job *j, gm_buffer *buffer)
     const char **sources = list_sources(&j->package, &n);
     if (!sources)
         return gm_fail(j->error, GM_ERR_MEMORY, "no memory to list the sources");
-    gm_description_options options = {j->identifier, j->guid, n, sources};
+    gm_description_options options = {j->identifier, j->guid, j->speed_in, n, sources};
     gm_status status = gm_model_description_write(j->map, &options, buffer, j->error);
     gm_free(sources);
     return status;
@@ -115,7 +117,7 @@ static gm_status make_texts(const job *j, gm_buffer *description, gm_buffer *tab
 {
     gm_status status = describe(j, description);
     if (status == GM_OK)
-        status = gm_tables_write(j->map, j->reduced, j->guid, tables, j->error);
+        status = gm_tables_write(j->map, &j->reduced, j->guid, tables, j->error);
     return status;
 }
 
@@ -143,7 +145,8 @@ static gm_status make_guid(job *j)
 static void summarise(const job *j, gm_bake_summary *summary)
 {
     *summary = (gm_bake_summary){.library_size = j->library_size,
-                                 .interpolation = j->options->interpolation};
+                                 .interpolation = j->options->interpolation,
+                                 .speed_in = j->speed_in};
     snprintf(summary->compiler, sizeof summary->compiler, "%.255s", j->compiler.path);
     snprintf(summary->guid, sizeof summary->guid, "%s", j->guid);
     snprintf(summary->library_sha256, sizeof summary->library_sha256, "%s",
@@ -169,7 +172,7 @@ static gm_status add_papers(job *j)
 static gm_status add_picture(job *j)
 {
     gm_buffer picture = {0};
-    gm_status status = gm_picture_write(j->map, j->reduced, &picture, j->error);
+    gm_status status = gm_picture_write(j->map, &j->reduced, &picture, j->error);
     if (status == GM_OK)
         status = gm_package_add(&j->package, "model.png", &picture, j->error);
     gm_buffer_clear(&picture);
@@ -293,8 +296,9 @@ static gm_status make_view(job *j, gm_map_view **view)
         return status;
     if (j->options->interpolation == GM_INTERPOLATION_MONOTONE)
         gm_map_view_make_monotone(*view);
-    j->reduced = gm_map_view_reduced(*view);
-    return GM_OK;
+    j->reduced = *gm_map_view_reduced(*view);
+    return gm_speed_in_read(j->map, j->options->speed_in, &j->reduced, &j->speed_in,
+                            j->error);
 }
 
 static void end_job(job *j, gm_map_view *view)

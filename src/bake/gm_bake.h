@@ -24,11 +24,18 @@ typedef struct gm_bake_result {
     const char *json;
 } gm_bake_result;
 
+/** Flanges whose motion is an input and whose torque is an output: paths, then the output
+ *  flange. */
+typedef struct gm_speed_in {
+    bool flange[GM_MAX_PATHS + 1];
+} gm_speed_in;
+
 typedef struct gm_bake_options {
     const char *share;    /* folder with core/, fmu/ and fmi2/ sources to ship */
     const char *compiler; /* C compiler; NULL: $CC, then cc, gcc, clang from the path */
     gm_interpolation interpolation;
-    int n_results; /* for passport and documentation; 0: nothing was measured */
+    const char *speed_in; /* names of the flanges, with commas between; NULL: none */
+    int n_results;        /* for passport and documentation; 0: nothing was measured */
     const gm_bake_result *results; /* [n_results] */
 } gm_bake_options;
 
@@ -39,12 +46,14 @@ typedef struct gm_bake_summary {
     char guid[64];
     char library_sha256[65];
     gm_interpolation interpolation;
+    gm_speed_in speed_in;
 } gm_bake_summary;
 
 /** Write an FMI 2.0 FMU (sources and a linux64 binary). Written beside its final name and
  *  renamed when whole; on failure nothing is left. Same map, options and compiler: same
  *  bytes. Results change passport and documentation alone. GM_ERR_TOOL when there is no
- *  compiler or it fails, GM_ERR_IO, errors of gm_bake_check_result. */
+ *  compiler or it fails, GM_ERR_IO, GM_ERR_ARGUMENT when speed_in names a flange that
+ *  there is not, or whose speed can be no input, errors of gm_bake_check_result. */
 GM_NODISCARD gm_status gm_bake_fmu2(const gm_map *map, const gm_bake_options *options,
                                     const char *path, gm_bake_summary *summary,
                                     gm_error *error);

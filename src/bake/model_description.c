@@ -198,7 +198,7 @@ static void write_real(xml *x, scalar s, const variable *v, const scalar_form *f
         gm_xml_text(x, "unbounded", "true");
     if (has_start(v) && !form->algebraic)
         gm_xml_number(x, "start", start_value(x, s));
-    if (gm_bake_integral(s, &state) && !form->algebraic)
+    if (!form->algebraic && gm_bake_integral(&x->speed_in, s, &state))
         gm_xml_integer(x, "derivative", gm_bake_index(x->all, x->n, state));
     gm_xml_end(x);
 }
@@ -221,6 +221,8 @@ static void write_type(xml *x, scalar s, const variable *v, const scalar_form *f
     default:
         gm_xml_start(x, "Enumeration");
         gm_xml_text(x, "declaredType", v->type == TYPE_STATE ? "PathState" : "Fidelity");
+        if (v->min > gm_bake_variables[s.id].min)
+            gm_xml_integer(x, "min", (long)v->min);
     }
     if (s.id == VARIABLE_PATH_GEAR)
         gm_xml_integer(x, "start", x->first_gear[s.path]);
@@ -235,7 +237,7 @@ void gm_describe_scalar(xml *x, scalar s, const scalar_form *form)
     static const char *const variability[] = {"continuous", "discrete", "fixed",
                                               "tunable"};
     static const char *const initial[] = {NULL, "exact", "calculated"};
-    const variable *v = &gm_bake_variables[s.id];
+    const variable own = gm_bake_variable(&x->speed_in, s), *v = &own;
     char name[80];
     full_name(x, s, name);
     gm_xml_start(x, "ScalarVariable");
@@ -284,8 +286,10 @@ gm_status gm_model_description_write(const gm_map *map,
                                      gm_buffer *buffer, gm_error *error)
 {
     xmlBuffer *memory = xmlBufferCreate();
-    xml x = {.writer = memory ? xmlNewTextWriterMemory(memory, 0) : NULL, .map = map};
-    x.n = gm_bake_scalars(map->n_paths, x.all);
+    xml x = {.writer = memory ? xmlNewTextWriterMemory(memory, 0) : NULL,
+             .map = map,
+             .speed_in = options->speed_in};
+    x.n = gm_bake_scalars(map->n_paths, &x.speed_in, x.all);
     for (int p = 0; p < map->n_paths; p++)
         x.first_gear[p] =
             gm_map_has_neutral(map, p) ? GM_NEUTRAL : map->paths[p].gears[0].number;

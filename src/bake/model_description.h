@@ -6,11 +6,12 @@
 #define MODEL_DESCRIPTION_H
 
 #include "bake/buffer.h"
-#include "map/gm_map.h"
+#include "bake/gm_bake.h"
 
 typedef struct gm_description_options {
     const char *model_identifier; /* name of library and C prefix */
     const char *guid;
+    gm_speed_in speed_in;
     int n_sources;
     const char *const *sources; /* [n_sources] names of the C files to compile */
 } gm_description_options;

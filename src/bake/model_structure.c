@@ -8,7 +8,7 @@
 
 #include "bake/buffer.h"
 
-typedef dependency (*dependency_rule)(scalar of, scalar on);
+typedef dependency (*dependency_rule)(const gm_speed_in *speed_in, scalar of, scalar on);
 
 /* One Unknown with its exact dependencies; indices count from 1. */
 static void write_unknown(xml *x, scalar unknown, dependency_rule rule)
@@ -16,9 +16,9 @@ static void write_unknown(xml *x, scalar unknown, dependency_rule rule)
     static const char *const name[] = {"", "dependent", "constant", "discrete"};
     gm_buffer on = {0}, kind = {0};
     for (int j = 0; j < x->n; j++) {
-        dependency d = rule(unknown, x->all[j]);
+        dependency d = rule(&x->speed_in, unknown, x->all[j]);
         if (x->map->n_oil > 0 && x->all[j].id == VARIABLE_OIL_TEMPERATURE &&
-            gm_bake_follows_oil(unknown))
+            gm_bake_follows_oil(&x->speed_in, unknown))
             d = DEPENDENCY_DEPENDENT;
         if (d == DEPENDENCY_NONE)
             continue;
@@ -39,7 +39,7 @@ static void write_unknown(xml *x, scalar unknown, dependency_rule rule)
 static void write_derivatives(xml *x)
 {
     scalar states[2 * N_VARIABLES], derivatives[2 * N_VARIABLES];
-    int n = gm_bake_states(x->map->n_paths, states, derivatives);
+    int n = gm_bake_states(x->map->n_paths, &x->speed_in, states, derivatives);
     gm_xml_start(x, "Derivatives");
     for (int i = 0; i < n; i++)
         write_unknown(x, derivatives[i], gm_bake_depends);
@@ -53,13 +53,13 @@ void gm_model_structure_write(xml *x)
     gm_xml_start(x, "ModelStructure");
     gm_xml_start(x, "Outputs");
     for (int i = 0; i < x->n; i++)
-        if (gm_bake_variables[x->all[i].id].causality == CAUSALITY_OUTPUT)
+        if (gm_bake_variable(&x->speed_in, x->all[i]).causality == CAUSALITY_OUTPUT)
             write_unknown(x, x->all[i], gm_bake_depends);
     gm_xml_end(x);
     write_derivatives(x);
     gm_xml_start(x, "InitialUnknowns");
     for (int i = 0; i < x->n; i++)
-        if (gm_bake_variables[x->all[i].id].initial == INITIAL_CALCULATED)
+        if (gm_bake_variable(&x->speed_in, x->all[i]).initial == INITIAL_CALCULATED)
             write_unknown(x, x->all[i], gm_bake_depends_initially);
     gm_xml_end(x);
     gm_xml_end(x);

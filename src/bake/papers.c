@@ -8,8 +8,11 @@ gm_papers gm_papers_write(const gm_map *map, const gm_bake_summary *summary,
                           const gm_passport *passport)
 {
     const bool monotone = summary->interpolation == GM_INTERPOLATION_MONOTONE;
-    const gm_document document = {
-        .map = map, .guid = summary->guid, .monotone = monotone, .passport = passport};
+    const gm_document document = {.map = map,
+                                  .guid = summary->guid,
+                                  .monotone = monotone,
+                                  .speed_in = summary->speed_in,
+                                  .passport = passport};
     const gm_passport_component component = {.map = map,
                                              .guid = summary->guid,
                                              .interpolation =

@@ -204,6 +204,15 @@ static void oil_struct(const gm_table_text *w)
                    gm_table_text_name(w, oil->bend, oil->n - 1, false, name));
 }
 
+/* Flanges whose motion is an input. */
+static void prescribed_field(const gm_table_text *w)
+{
+    const int *k = w->reduced->prescribed;
+    if (k[0] || k[1] || k[GM_MAX_PATHS])
+        gm_buffer_text(w->text, "    .prescribed = {%d, %d, %d},\n", k[0] != 0, k[1] != 0,
+                       k[GM_MAX_PATHS] != 0);
+}
+
 static void map_struct(const gm_table_text *w, const char *keyword)
 {
     gm_buffer_text(w->text,
@@ -223,7 +232,9 @@ static void map_struct(const gm_table_text *w, const char *keyword)
     oil_struct(w);
     gm_buffer_text(w->text, "    .oil_temperature = ");
     number(w, w->reduced->oil_temperature);
-    gm_buffer_text(w->text, ", /* K */\n};\n");
+    gm_buffer_text(w->text, ", /* K */\n");
+    prescribed_field(w);
+    gm_buffer_text(w->text, "};\n");
 }
 
 void gm_table_text_structs(const gm_table_text *w, const char *keyword)

@@ -6,6 +6,8 @@
  *   - accelerations and losses follow torques and speeds of all flanges, since the
  *     transmitted torque is what is left after accelerating both sides;
  *   - at the start commanded gears are engaged at once, and output.w_start wins.
+ * Where motion comes in and torque goes out, that torque follows the acceleration, the
+ * speeds and what acts on the flange; the output's also the torques of the paths.
  */
 #include "bake/variables.h"
 
@@ -30,15 +32,93 @@ const variable gm_bake_variables[] = {
 #undef GM_VAR
 };
 
-int gm_bake_scalars(int n_paths, scalar *all)
+/* ---- speeds that are inputs ---- */
+
+static bool is_given(const gm_speed_in *speed_in, scalar s)
+{
+    return speed_in->flange[s.path < 0 ? GM_MAX_PATHS : s.path];
+}
+
+static bool is_any_path_given(const gm_speed_in *speed_in)
+{
+    bool any = false;
+    for (int p = 0; p < GM_MAX_PATHS; p++)
+        any = any || speed_in->flange[p];
+    return any;
+}
+
+static bool is_any_given(const gm_speed_in *speed_in)
+{
+    return speed_in->flange[GM_MAX_PATHS] || is_any_path_given(speed_in);
+}
+
+static const struct {
+    variable_id id;
+    const char *description;
+} swapped[] = {
+    {VARIABLE_PATH_TAU,
+     "torque into the gearset that the motion of the input flange takes"},
+    {VARIABLE_OUTPUT_TAU,
+     "torque into the gearset that the motion of the output flange takes"},
+    {VARIABLE_PATH_PHI, "angle of the input flange; without influence"},
+    {VARIABLE_OUTPUT_PHI, "angle of the output flange; without influence"},
+    {VARIABLE_PATH_W, "speed of the input flange"},
+    {VARIABLE_OUTPUT_W, "speed of the output flange"},
+    {VARIABLE_PATH_A, "acceleration of the input flange, the derivative of its speed"},
+    {VARIABLE_OUTPUT_A, "acceleration of the output flange, the derivative of its speed"},
+};
+enum { N_SWAPPED = sizeof swapped / sizeof *swapped };
+
+/* Its place in the list above; -1: none. */
+static int find_swapped(const gm_speed_in *speed_in, scalar s)
+{
+    for (int i = 0; i < N_SWAPPED; i++)
+        if (swapped[i].id == s.id)
+            return is_given(speed_in, s) ? i : -1;
+    return -1;
+}
+
+bool gm_bake_is_swapped(const gm_speed_in *speed_in, scalar s)
+{
+    return find_swapped(speed_in, s) >= 0;
+}
+
+variable gm_bake_variable(const gm_speed_in *speed_in, scalar s)
+{
+    variable v = gm_bake_variables[s.id];
+    const int i = find_swapped(speed_in, s);
+    if (i >= 0) {
+        const bool goes_out = v.causality == CAUSALITY_INPUT;
+        v.description = swapped[i].description;
+        v.causality = goes_out ? CAUSALITY_OUTPUT : CAUSALITY_INPUT;
+        v.initial = goes_out ? INITIAL_CALCULATED : INITIAL_NONE;
+    }
+    if (s.id == VARIABLE_FIDELITY && is_any_path_given(speed_in)) {
+        v.min = GM_LASH;
+        v.description =
+            "lash: engaged paths act through spring and backlash; a path whose "
+            "speed is an input cannot be rigid";
+    }
+    return v;
+}
+
+/* ---- scalars ---- */
+
+static bool is_there(const gm_speed_in *speed_in, scalar s)
+{
+    const bool start = s.id == VARIABLE_PATH_W_START || s.id == VARIABLE_OUTPUT_W_START;
+    return !(start && is_given(speed_in, s));
+}
+
+int gm_bake_scalars(int n_paths, const gm_speed_in *speed_in, scalar *all)
 {
     int n = 0;
     for (int id = 0; id < N_VARIABLES; id++) {
-        if (gm_bake_variables[id].scope == SCOPE_ALL)
-            all[n++] = (scalar){(variable_id)id, -1};
-        else
-            for (int p = 0; p < n_paths; p++)
-                all[n++] = (scalar){(variable_id)id, p};
+        const bool path = gm_bake_variables[id].scope == SCOPE_PATH;
+        for (int p = 0; p < (path ? n_paths : 1); p++) {
+            all[n] = (scalar){(variable_id)id, path ? p : -1};
+            n += is_there(speed_in, all[n]);
+        }
     }
     return n;
 }
@@ -68,25 +148,27 @@ static const struct {
 };
 enum { N_STATES_OF = sizeof states_of / sizeof *states_of };
 
-int gm_bake_states(int n_paths, scalar *states, scalar *derivatives)
+int gm_bake_states(int n_paths, const gm_speed_in *speed_in, scalar *states,
+                   scalar *derivatives)
 {
     int n = 0;
     for (int i = 0; i < N_STATES_OF; i++) {
         bool path = gm_bake_variables[states_of[i].state].scope == SCOPE_PATH;
-        for (int p = 0; p < (path ? n_paths : 1); p++, n++) {
+        for (int p = 0; p < (path ? n_paths : 1); p++) {
             states[n] = (scalar){states_of[i].state, path ? p : -1};
             derivatives[n] = (scalar){states_of[i].derivative, path ? p : -1};
+            n += !gm_bake_is_swapped(speed_in, states[n]);
         }
     }
     return n;
 }
 
-bool gm_bake_integral(scalar derivative, scalar *state)
+bool gm_bake_integral(const gm_speed_in *speed_in, scalar derivative, scalar *state)
 {
     for (int i = 0; i < N_STATES_OF; i++)
         if (states_of[i].derivative == derivative.id) {
             *state = (scalar){states_of[i].state, derivative.path};
-            return true;
+            return !gm_bake_is_swapped(speed_in, *state);
         }
     return false;
 }
@@ -110,6 +192,8 @@ int gm_bake_indicators(int n_paths)
 static bool follows_load(variable_id id)
 {
     switch (id) {
+    case VARIABLE_PATH_TAU:
+    case VARIABLE_OUTPUT_TAU:
     case VARIABLE_PATH_A:
     case VARIABLE_OUTPUT_A:
     case VARIABLE_PATH_LOSS_TORQUE:
@@ -122,14 +206,24 @@ static bool follows_load(variable_id id)
     }
 }
 
-bool gm_bake_follows_oil(scalar of)
+bool gm_bake_follows_oil(const gm_speed_in *speed_in, scalar of)
 {
-    return follows_load(of.id);
+    return follows_load(of.id) || (of.id == VARIABLE_POWER && is_any_given(speed_in));
 }
 
-static bool is_torque(variable_id id)
+/* Torques that come in; and the acceleration of the output where that does: rigid paths
+ * transmit what it leaves of their torque. */
+static bool is_load(const gm_speed_in *speed_in, scalar s)
 {
-    return id == VARIABLE_PATH_TAU || id == VARIABLE_OUTPUT_TAU;
+    const bool is_swapped = gm_bake_is_swapped(speed_in, s);
+    return ((s.id == VARIABLE_PATH_TAU || s.id == VARIABLE_OUTPUT_TAU) && !is_swapped) ||
+           (s.id == VARIABLE_OUTPUT_A && is_swapped);
+}
+
+static bool is_given_acceleration(const gm_speed_in *speed_in, scalar s)
+{
+    return (s.id == VARIABLE_PATH_A || s.id == VARIABLE_OUTPUT_A) &&
+           gm_bake_is_swapped(speed_in, s);
 }
 
 static bool is_speed(variable_id id)
@@ -137,49 +231,71 @@ static bool is_speed(variable_id id)
     return id == VARIABLE_PATH_W || id == VARIABLE_OUTPUT_W;
 }
 
-dependency gm_bake_depends(scalar of, scalar on)
+dependency gm_bake_depends(const gm_speed_in *speed_in, scalar of, scalar on)
 {
     if (is_state(of.id))
         return of.id == on.id && of.path == on.path ? DEPENDENCY_CONSTANT
                                                     : DEPENDENCY_NONE;
-    bool own = on.path == of.path || on.path < 0, depends = false;
+    const bool own = on.path == of.path || on.path < 0, speed = is_speed(on.id),
+               load = is_load(speed_in, on), twist = on.id == VARIABLE_PATH_TWIST;
+    bool depends = false;
     switch (of.id) {
     case VARIABLE_PATH_TWIST_RATE: /* w_p - r w_o or 0 */
-        return is_speed(on.id) && own ? DEPENDENCY_DISCRETE : DEPENDENCY_NONE;
+        return speed && own ? DEPENDENCY_DISCRETE : DEPENDENCY_NONE;
     case VARIABLE_POWER:
-        depends = is_torque(on.id) || is_speed(on.id);
+        depends =
+            load || speed ||
+            (is_any_given(speed_in) && (twist || is_given_acceleration(speed_in, on)));
         break;
     case VARIABLE_KINETIC_ENERGY:
-        depends = is_speed(on.id);
+        depends = speed;
         break;
     case VARIABLE_ELASTIC_ENERGY:
-        depends = on.id == VARIABLE_PATH_TWIST;
+        depends = twist;
+        break;
+    case VARIABLE_PATH_TAU: /* other torques end at the output */
+        depends = speed ||
+                  (on.path == of.path && (twist || is_given_acceleration(speed_in, on)));
         break;
     case VARIABLE_PATH_A: /* what twists the other path does not reach this one */
-        depends =
-            is_torque(on.id) || is_speed(on.id) || (on.id == VARIABLE_PATH_TWIST && own);
+        depends = load || speed || (twist && own);
         break;
     default:
-        depends = follows_load(of.id) &&
-                  (is_torque(on.id) || is_speed(on.id) || on.id == VARIABLE_PATH_TWIST);
+        depends = follows_load(of.id) && (load || speed || twist);
     }
     return depends ? DEPENDENCY_DEPENDENT : DEPENDENCY_NONE;
 }
 
-static bool sets_speeds(variable_id id)
+static bool sets_speeds(const gm_speed_in *speed_in, scalar s)
 {
-    return id == VARIABLE_OUTPUT_W_START || id == VARIABLE_PATH_W_START ||
-           id == VARIABLE_PATH_GEAR;
+    return s.id == VARIABLE_OUTPUT_W_START || s.id == VARIABLE_PATH_W_START ||
+           s.id == VARIABLE_PATH_GEAR ||
+           (is_speed(s.id) && gm_bake_is_swapped(speed_in, s));
 }
 
-static bool depends_initially(scalar of, scalar on)
+/* The output's speed at the start: its own, or that of an engaged path that is given. */
+static bool sets_output(const gm_speed_in *speed_in, scalar s)
 {
+    return s.id == VARIABLE_OUTPUT_W_START ||
+           (is_speed(s.id) && gm_bake_is_swapped(speed_in, s)) ||
+           (s.id == VARIABLE_PATH_GEAR && is_given(speed_in, s));
+}
+
+static bool is_load_parameter(variable_id id)
+{
+    return id == VARIABLE_LOSS_SCALE || id == VARIABLE_PATH_TWIST ||
+           id == VARIABLE_FIDELITY;
+}
+
+static bool depends_initially(const gm_speed_in *speed_in, scalar of, scalar on)
+{
+    const bool load = is_load(speed_in, on) || is_given_acceleration(speed_in, on);
     switch (of.id) {
     case VARIABLE_OUTPUT_W:
-        return on.id == VARIABLE_OUTPUT_W_START;
+        return sets_output(speed_in, on);
     case VARIABLE_PATH_W:
-        return on.id == VARIABLE_OUTPUT_W_START ||
-               (sets_speeds(on.id) && on.path == of.path);
+        return sets_output(speed_in, on) ||
+               (sets_speeds(speed_in, on) && on.path == of.path);
     case VARIABLE_PATH_STATE:
     case VARIABLE_PATH_GEAR_REFUSED:
         return on.id == VARIABLE_PATH_GEAR && on.path == of.path;
@@ -188,26 +304,26 @@ static bool depends_initially(scalar of, scalar on)
     case VARIABLE_RECOMMENDED_STEP:
         return on.id == VARIABLE_PATH_GEAR || on.id == VARIABLE_FIDELITY;
     case VARIABLE_KINETIC_ENERGY:
-        return sets_speeds(on.id);
+        return sets_speeds(speed_in, on);
     case VARIABLE_ELASTIC_ENERGY:
         return on.id == VARIABLE_PATH_GEAR || on.id == VARIABLE_PATH_TWIST ||
                on.id == VARIABLE_FIDELITY;
     case VARIABLE_POWER:
-        return is_torque(on.id) || sets_speeds(on.id);
+        return load || sets_speeds(speed_in, on) ||
+               (is_any_given(speed_in) && is_load_parameter(on.id));
     case VARIABLE_PATH_A:
         if (on.id == VARIABLE_PATH_TWIST)
             return on.path == of.path;
         /* fallthrough */
     default:
         return follows_load(of.id) &&
-               (is_torque(on.id) || sets_speeds(on.id) || on.id == VARIABLE_LOSS_SCALE ||
-                on.id == VARIABLE_PATH_TWIST || on.id == VARIABLE_FIDELITY);
+               (load || sets_speeds(speed_in, on) || is_load_parameter(on.id));
     }
 }
 
-dependency gm_bake_depends_initially(scalar of, scalar on)
+dependency gm_bake_depends_initially(const gm_speed_in *speed_in, scalar of, scalar on)
 {
-    return depends_initially(of, on) ? DEPENDENCY_DEPENDENT : DEPENDENCY_NONE;
+    return depends_initially(speed_in, of, on) ? DEPENDENCY_DEPENDENT : DEPENDENCY_NONE;
 }
 
 /* ---- units ---- */

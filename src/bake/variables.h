@@ -6,6 +6,8 @@
 #ifndef VARIABLES_H
 #define VARIABLES_H
 
+#include "bake/gm_bake.h"
+
 #include <stdbool.h>
 
 #define GM_FREE 1e300 /* min or max: no limit on this side */
@@ -48,8 +50,16 @@ typedef struct scalar {
     int path; /* -1 for variables that belong to no path */
 } scalar;
 
-/** Number of scalars of a gearset of n_paths, at most 2 N_VARIABLES; fills all[]. */
-int gm_bake_scalars(int n_paths, scalar *all);
+/** Number of scalars of a gearset of n_paths, at most 2 N_VARIABLES; fills all[]. Flanges
+ *  whose speed is an input have no w_start. */
+int gm_bake_scalars(int n_paths, const gm_speed_in *speed_in, scalar *all);
+
+/** Whether the scalar is one that changes its place at a flange whose speed is an input:
+ *  phi, w, a are inputs there, tau is an output. */
+bool gm_bake_is_swapped(const gm_speed_in *speed_in, scalar s);
+
+/** What the list says of a scalar, with what speeds that are inputs change of it. */
+variable gm_bake_variable(const gm_speed_in *speed_in, scalar s);
 
 /** Value reference of a scalar. */
 unsigned gm_bake_reference(scalar s);
@@ -59,10 +69,11 @@ int gm_bake_index(const scalar *all, int n, scalar s);
 
 /** The continuous states of core/gm_states.def and their derivatives, in that order;
  *  returns their number, at most that of the scalars. */
-int gm_bake_states(int n_paths, scalar *states, scalar *derivatives);
+int gm_bake_states(int n_paths, const gm_speed_in *speed_in, scalar *states,
+                   scalar *derivatives);
 
 /** Whether a scalar is the derivative of a state, and of which. */
-bool gm_bake_integral(scalar derivative, scalar *state);
+bool gm_bake_integral(const gm_speed_in *speed_in, scalar derivative, scalar *state);
 
 /** Number of event indicators: core/gm_reduced_modes.h. */
 int gm_bake_indicators(int n_paths);
@@ -76,11 +87,11 @@ typedef enum dependency {
 
 /** How output `of` depends directly on scalar `on` (at communication points and between
  *  events: on inputs and states; during initialisation: on inputs and start values). */
-dependency gm_bake_depends(scalar of, scalar on);
-dependency gm_bake_depends_initially(scalar of, scalar on);
+dependency gm_bake_depends(const gm_speed_in *speed_in, scalar of, scalar on);
+dependency gm_bake_depends_initially(const gm_speed_in *speed_in, scalar of, scalar on);
 
 /** Whether an output follows the oil temperature, where the map has an oil axis. */
-bool gm_bake_follows_oil(scalar of);
+bool gm_bake_follows_oil(const gm_speed_in *speed_in, scalar of);
 
 typedef struct display_unit {
     const char *name;

@@ -7,12 +7,12 @@
 #define XML_H
 
 #include "bake/variables.h"
-#include "map/gm_map.h"
 
 typedef struct xml {
     void *writer; /* xmlTextWriter */
     bool failed;  /* one of its calls did */
     const gm_map *map;
+    gm_speed_in speed_in;
     int first_gear[GM_MAX_PATHS]; /* at the start: neutral, or the only gear of a path
                                      that has no neutral */
     int n;
