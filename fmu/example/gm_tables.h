@@ -8,6 +8,7 @@
  *   N = sgn(w_n) (0.2 + 0.001 |w_n|)       drag of a neutral path [N.m], no reaction
  *   C = 0.0005 (w_0 - w_1)                 between the two input shafts [N.m]
  *
+ * example_speed_in/ adds springs and prescribed motion to it.
  * Ranges: |w_o| <= 500 rad/s, |tau| <= 400 N.m at the inputs, |w_n| <= 2000 rad/s.
  */
 #ifndef GM_TABLES_H
@@ -40,10 +41,16 @@ static const gm_real reaction[2 * 2] = {0, 0, 0, 0};
 /* N.m */
 static const gm_real coupling[2] = {-1, 1};
 
+#ifndef GM_EXAMPLE_SPRING
+#define GM_EXAMPLE_SPRING
+#define GM_EXAMPLE_PRESCRIBED
+#endif
+
 // clang-format off
 #define AXIS(name) {.n = sizeof(name) / sizeof *(name), .x = (name)}
 #define LOAD_LOSS {.x = AXIS(speed_path), .y = AXIS(torque), .value = load_loss}
-#define GEAR(n, r) {.number = (n), .ratio = (r), .load_loss = {LOAD_LOSS, LOAD_LOSS}}
+#define GEAR(n, r) {.number = (n), .ratio = (r), GM_EXAMPLE_SPRING                       \
+                    .load_loss = {LOAD_LOSS, LOAD_LOSS}}
 #define FREE(v) {.x = AXIS(speed_path), .y = AXIS(speed_output), .value = (v)}
 #define PARASITIC {.x = AXIS(speed_output), .value = parasitic}
 #define CONFIGURATION(g0, g1) {.gear = {g0, g1}, .parasitic = {PARASITIC, PARASITIC}}
@@ -71,6 +78,7 @@ static const gm_reduced_map gm_tables_map = {
     .coupling = {.x = AXIS(speed_relative), .value = coupling},
     .inertia_output = 0.1,
     .oil_temperature = 333.15,
+    GM_EXAMPLE_PRESCRIBED
 };
 // clang-format on
 

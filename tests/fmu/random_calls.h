@@ -75,6 +75,10 @@ fmi2Status random_rates(random_run *r, bool *legal);
 fmi2Status random_indicators(random_run *r, bool *legal);
 fmi2Status random_nominals(random_run *r, bool *legal);
 
+/** The test: argv[1] sequences of calls, or as many as are usual. Returns what main does.
+ */
+int random_main(int argc, char **argv);
+
 /** Stops the test unless all n values are numbers. */
 void random_assert_numbers(const random_run *r, const double *value, size_t n);
 
