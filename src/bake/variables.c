@@ -231,6 +231,13 @@ static bool is_speed(variable_id id)
     return id == VARIABLE_PATH_W || id == VARIABLE_OUTPUT_W;
 }
 
+/* A load acts on a path through the output's motion, unless that is given. */
+static bool reaches(const gm_speed_in *speed_in, scalar of, scalar load)
+{
+    return of.path < 0 || load.path < 0 || load.path == of.path ||
+           !speed_in->flange[GM_MAX_PATHS];
+}
+
 dependency gm_bake_depends(const gm_speed_in *speed_in, scalar of, scalar on)
 {
     if (is_state(of.id))
@@ -258,10 +265,11 @@ dependency gm_bake_depends(const gm_speed_in *speed_in, scalar of, scalar on)
                   (on.path == of.path && (twist || is_given_acceleration(speed_in, on)));
         break;
     case VARIABLE_PATH_A: /* what twists the other path does not reach this one */
-        depends = load || speed || (twist && own);
+        depends = (load && reaches(speed_in, of, on)) || speed || (twist && own);
         break;
     default:
-        depends = follows_load(of.id) && (load || speed || twist);
+        depends = follows_load(of.id) &&
+                  ((load && reaches(speed_in, of, on)) || speed || twist);
     }
     return depends ? DEPENDENCY_DEPENDENT : DEPENDENCY_NONE;
 }
@@ -296,6 +304,10 @@ static bool depends_initially(const gm_speed_in *speed_in, scalar of, scalar on)
     case VARIABLE_PATH_W:
         return sets_output(speed_in, on) ||
                (sets_speeds(speed_in, on) && on.path == of.path);
+    case VARIABLE_PATH_TWIST_RATE: /* zero where the speeds of a gear agree */
+        return is_given(speed_in, of) &&
+               (sets_output(speed_in, on) ||
+                (sets_speeds(speed_in, on) && on.path == of.path));
     case VARIABLE_PATH_STATE:
     case VARIABLE_PATH_GEAR_REFUSED:
         return on.id == VARIABLE_PATH_GEAR && on.path == of.path;

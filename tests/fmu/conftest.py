@@ -15,10 +15,11 @@ from fmpy.fmi2 import FMU2Model, FMU2Slave
 BINARY = Path(os.environ["GM_BINARY_DIR"])
 
 
-def bake(folder, paths, **environment):
+def bake(folder, paths, speed_in=None, **environment):
     file = folder / f"paths{paths}.fmu"
+    more = [speed_in] if speed_in else []
     done = subprocess.run(
-        [BINARY / "tests/bake/bake_example", BINARY / "share/gearmap", str(paths), file],
+        [BINARY / "tests/bake/bake_example", BINARY / "share/gearmap", str(paths), file, *more],
         capture_output=True, text=True, env={**os.environ, **environment})
     assert done.returncode == 0, done.stderr
     return file
@@ -46,6 +47,20 @@ def two(tmp_path_factory):
 def one(tmp_path_factory):
     folder = tmp_path_factory.mktemp("one")
     return Baked(bake(folder, 1), folder / "unpacked")
+
+
+@pytest.fixture(scope="session")
+def output_in(tmp_path_factory):
+    """Two paths; motion comes in at the output."""
+    folder = tmp_path_factory.mktemp("output_in")
+    return Baked(bake(folder, 2, "output"), folder / "unpacked")
+
+
+@pytest.fixture(scope="session")
+def odd_in(tmp_path_factory):
+    """Two paths; motion comes in at one of them and at the output."""
+    folder = tmp_path_factory.mktemp("odd_in")
+    return Baked(bake(folder, 2, "odd,output"), folder / "unpacked")
 
 
 class Host:
