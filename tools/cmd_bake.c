@@ -40,9 +40,9 @@ static const gm_option options[] = {
              "variables of the reduced one and its own behind them; nothing is compiled"},
     {.kind = GM_OPTION_TEXT, .name = "speed-in", .value = "FLANGE[,...]",
      .offset = GM_BAKE_OPTION(arguments, speed_in),
-     .help = "flanges (such as output, or odd) where phi, w and a are inputs and tau is an "
-             "output, as in Modelica's GeneralAngleToTorqueAdaptor; default: torque in, "
-             "speed out at all"},
+     .help = "flanges (such as output, or odd) where phi, w and a are inputs and tau is "
+             "an output, as in Modelica's GeneralAngleToTorqueAdaptor; default: torque "
+             "in, speed out at all"},
     GM_BAKE_OPTIONS(arguments),
     GM_BAKE_C_OPTIONS(arguments),
     GM_JSON_OPTION(arguments),

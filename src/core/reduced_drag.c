@@ -28,12 +28,21 @@ typedef struct place {
     gm_real sign_n, sign_o; /* +1, -1 */
 } place;
 
+/* A prescribed shaft at rest, sign 0, is read as one that is about to turn forward: a
+ * patch serves both. */
 static place place_of(int p, gm_real sign_n, gm_real sign_o, const gm_point *at)
 {
+    const gm_real ahead = sign_n < 0 ? -1 : 1, turn = sign_o < 0 ? -1 : 1;
     const gm_real x = gm_not_below_zero(sign_n * at->m[p]);
     const gm_real y = gm_not_below_zero(sign_o * at->m[GM_OUT]);
-    const place q = {gm_direction(sign_n), gm_direction(sign_o), x,      y,
-                     sign_n * x,           sign_o * y,           sign_n, sign_o};
+    const place q = {gm_direction(sign_n),
+                     gm_direction(sign_o),
+                     x,
+                     y,
+                     ahead * x,
+                     turn * y,
+                     ahead,
+                     turn};
     return q;
 }
 

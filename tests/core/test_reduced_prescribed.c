@@ -236,6 +236,41 @@ static void events_of_an_exchange_are_told(void **state)
     assert_true(z[last] > 0);
 }
 
+/* From rest and back to it: what was read before changes no bit. */
+static void caches_have_no_influence(void **state)
+{
+    static const gm_reduced_cache empty;
+    unsigned seed = 16;
+    (void)state;
+    for (int trial = 0; trial < 200; trial++) {
+        build(&seed, trial % 2 ? 1 << OUT : 1 + trial % 7);
+        rig r = random_rig(&seed, GM_LASH);
+        r.in.gear[trial % 2] = 0;
+        r.in.w[OUT] = 0;
+        for (int p = 0; p < 2; p++) { /* on the ramps of drag lines */
+            r.in.w[p] = hand_between(&seed, -1.5, 1.5);
+        }
+        gm_reduced_start(&told.map, &r.in, 0, r.in.w, &r.s);
+        rig fresh = r;
+        for (int i = 0; i < 60; i++) {
+            gm_reduced_outputs o, p;
+            r.in.a[OUT] = fresh.in.a[OUT] = i < 10 || i >= 50 ? 0 : i < 30 ? 30 : -30;
+            fresh.s.cache = empty;
+            gm_reduced_outputs_at(&told.map, &r.params, &r.in, &r.s, &o);
+            gm_reduced_outputs_at(&told.map, &r.params, &fresh.in, &fresh.s, &p);
+            assert_near(o.loss_power, p.loss_power, 0);
+            fresh.s.cache = empty;
+            gm_reduced_step(&told.map, &r.params, &r.in, 1e-3, &r.s);
+            gm_reduced_step(&told.map, &r.params, &fresh.in, 1e-3, &fresh.s);
+            assert_near(r.s.loss_energy, fresh.s.loss_energy, 0);
+            for (int q = 0; q < 2; q++) {
+                assert_near(r.s.path[q].w, fresh.s.path[q].w, 0);
+            }
+            r.in.w[OUT] = fresh.in.w[OUT] = r.s.w_o;
+        }
+    }
+}
+
 static void a_prescribed_motion_that_is_no_number_is_told(void **state)
 {
     unsigned seed = 15;
@@ -259,6 +294,7 @@ int main(void)
         cmocka_unit_test(steps_are_the_same),
         cmocka_unit_test(the_account_closes_whatever_is_prescribed),
         cmocka_unit_test(a_prescribed_shaft_at_rest_has_no_friction),
+        cmocka_unit_test(caches_have_no_influence),
         cmocka_unit_test(events_of_an_exchange_are_told),
         cmocka_unit_test(a_prescribed_motion_that_is_no_number_is_told),
     };

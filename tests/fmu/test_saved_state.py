@@ -15,7 +15,7 @@ STEPS, POINTS, RESUMED = 1500, 100, 60
 H = 1.0 / 128  # binary: times are exact
 
 
-@pytest.fixture(params=["one", "two"])
+@pytest.fixture(params=["one", "two", "output_in"])
 def baked(request):
     return request.getfixturevalue(request.param)
 
@@ -44,6 +44,8 @@ def command(h, i):
         h.set({f"{path}.gear": draw.choice(gears(h.baked, path))})
     elif what < 4:
         name, size = (f"{path}.tau", 60.0) if what < 3 else ("output.tau", 250.0)
+        if h.baked.variables[name].causality == "output":
+            name, size = "output.a", 50.0  # the speed goes on by itself
         h.set({name: draw.uniform(-size, size)})
         h.fmu.setRealInputDerivatives([h.baked.variables[name].valueReference], [1],
                                       [draw.uniform(-size, size)])
