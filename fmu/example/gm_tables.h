@@ -8,7 +8,8 @@
  *   N = sgn(w_n) (0.2 + 0.001 |w_n|)       drag of a neutral path [N.m], no reaction
  *   C = 0.0005 (w_0 - w_1)                 between the two input shafts [N.m]
  *
- * example_speed_in/ adds springs and prescribed motion to it.
+ * With GM_EXAMPLE_SPEED_IN gears have springs, and motion is prescribed at the first path
+ * and at the output: phi, w and a come in there and tau goes out.
  * Ranges: |w_o| <= 500 rad/s, |tau| <= 400 N.m at the inputs, |w_n| <= 2000 rad/s.
  */
 #ifndef GM_TABLES_H
@@ -41,7 +42,11 @@ static const gm_real reaction[2 * 2] = {0, 0, 0, 0};
 /* N.m */
 static const gm_real coupling[2] = {-1, 1};
 
-#ifndef GM_EXAMPLE_SPRING
+#ifdef GM_EXAMPLE_SPEED_IN
+#define GM_EXAMPLE_SPRING                                                                \
+    .stiffness = 2e4, .damping = 2, .loose_damping = 4, .lash = 5e-3, .film = 1e-4,
+#define GM_EXAMPLE_PRESCRIBED .prescribed = {1, 0, 1},
+#else
 #define GM_EXAMPLE_SPRING
 #define GM_EXAMPLE_PRESCRIBED
 #endif

@@ -234,8 +234,8 @@ static double stored(fmi2Component c)
     return get(c, GM_KINETIC_ENERGY, 0) + get(c, GM_ELASTIC_ENERGY, 0);
 }
 
-/* What is told of the output at step i: it goes to 20 rad/s and back to rest, stands, goes
- * backward and comes back. */
+/* What is told of the output at step i: it goes to 20 rad/s and back to rest, stands,
+ * goes backward and comes back. */
 static void tell_output(int i, double *w_o, double *a_o)
 {
     static const struct {
