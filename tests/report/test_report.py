@@ -7,12 +7,13 @@ import re
 import sqlite3
 import subprocess
 import sys
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
 
-pytest.importorskip("pandas", reason="the report needs pandas")
+pd = pytest.importorskip("pandas", reason="the report needs pandas")
 pytest.importorskip("plotly", reason="the report needs plotly")
 
 GEARMAP = os.environ["GEARMAP"]
@@ -20,10 +21,10 @@ ROOT = Path(os.environ["GM_SOURCE_DIR"])
 EXAMPLES = sorted(p.stem for p in (ROOT / "examples").glob("*.yaml")
                   if not p.stem.startswith("vehicle"))
 sys.path.insert(0, str(ROOT / "tools" / "report"))
-from gearmap_report import command  # noqa: E402
+from gearmap_report import command, page  # noqa: E402
 from gearmap_report.errors import ReportError  # noqa: E402
-from gearmap_report.map_file import read_map  # noqa: E402
-from gearmap_report.results import read_results  # noqa: E402
+from gearmap_report.map_file import read_map, slices_of  # noqa: E402
+from gearmap_report.results import Results, read_results  # noqa: E402
 from gearmap_report.words import number, percent  # noqa: E402
 
 COARSE = ["--speed-step", "1500rpm", "--torque-step", "100Nm"]
@@ -291,6 +292,29 @@ def test_numbers_as_people_read_them(value, digits, words):
 def test_percentages_keep_their_digits():
     assert percent(0.98, 4) == "98.00\u202f%" and percent(-0.01, 2) == "−1.0\u202f%"
     assert percent(0) == "0\u202f%"
+
+
+def test_several_oil_temperatures(reduced):
+    """A choice of temperature, and a line for each, from a map with several."""
+    one = read_map(reduced[0])
+    tables = {"load_loss": one.load_loss, "parasitic": one.parasitic, "drag": one.drag}
+    warm = {name: rows.drop(columns="oil_degC", errors="ignore")
+            for name, rows in tables.items()}
+    cold = {name: rows.assign(loss_torque_Nm=2 * rows["loss_torque_Nm"])
+            if "loss_torque_Nm" in rows else rows for name, rows in warm.items()}
+    both = {name: pd.concat([cold[name].assign(oil_degC=20.0),
+                             warm[name].assign(oil_degC=80.0)]) for name in tables}
+    slices = slices_of(both)
+    assert list(slices) == [20.0, 80.0] and slices_of(warm) == {}
+    data = replace(one, **slices[80.0], slices=slices)
+    text = page.make(data, None, Results())
+    assert "20\u202f°C and 80\u202f°C" in text and "20 to 80\u202f°C" in text
+    assert 'name="loss-map-oil" value="80" checked' in text
+    lines = [t for t in figure(text, "oil")["data"]
+             if t["mode"] == "lines" and t["meta"]["load"] == "none"]
+    assert len(lines) == 2
+    assert {t["meta"]["oil"] for t in figure(text, "loss-map")["data"]
+            if t["type"] == "contour"} == {"20", "80"}
 
 
 def refused(words, *arguments, **environment):

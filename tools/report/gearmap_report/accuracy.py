@@ -7,7 +7,7 @@ import plotly.graph_objects as go
 
 from .colours import HELD_OUT
 from .figure import canvas, embed
-from .words import gear_name, number, ordinal, paragraph, percent, plural, table
+from .words import gear_name, number, ordinal, paragraph, percent, plural, table, unit
 
 KINDS = {  # name -> what is compared
     "single": "Lost torque, one input drives",
@@ -57,6 +57,17 @@ def kinds_table(found):
                  "of the same gear and direction. Typical: root mean square." % many)
 
 
+def oil_table(steady):
+    """Between the oil temperatures of the map, where it has several."""
+    steps = (steady or {}).get("by_oil_temperature") or []
+    rows = [["%s to %s" % (number(s["from_degC"]), unit(s["to_degC"], "°C")),
+             percent(s["rms_relative"], 2), percent(s["max_relative"], 2)]
+            for s in steps if s.get("points")]
+    return table(["Oil", "Typical difference", "Largest difference"], rows,
+                 "Lost torque, one input drives, by oil temperature. Differences are shares "
+                 "of the largest loss there.") if rows else ""
+
+
 def points_figure(data):
     """Every compared point: gear against error, spread a little sideways."""
     points = data.points[data.points["kind"] == "single"]
@@ -97,5 +108,5 @@ def chapter(data, results):
             "largest loss away from the detailed model." % (percent(single[2], 2),
                                                             percent(single[1], 2)))
     figure = points_figure(data) if len(data.points) else ""
-    return ('<section id="accuracy"><h2>How exact are the losses?</h2>%s%s%s</section>'
-            % (words, figure, kinds_table(found)))
+    return ('<section id="accuracy"><h2>How exact are the losses?</h2>%s%s%s%s</section>'
+            % (words, figure, kinds_table(found), oil_table(results.steady)))

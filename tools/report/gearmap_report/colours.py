@@ -32,12 +32,17 @@ def mix(a, b, share):
     return "#%02x%02x%02x" % tuple(round(x + share * (y - x)) for x, y in parts)
 
 
-def of_gears(numbers):
-    """Forward gears from violet to red as they rise, reverse grey."""
-    forward = sorted(n for n in numbers if n > 0)
-    found = {n: "#8a8f98" for n in numbers}
-    for i, n in enumerate(forward):
-        at = i / max(1, len(forward) - 1) * (len(RISING) - 1)
+def of_levels(count):
+    """From violet to red, as many as asked for."""
+    found = []
+    for i in range(count):
+        at = i / max(1, count - 1) * (len(RISING) - 1)
         low = min(int(at), len(RISING) - 2)
-        found[n] = mix(RISING[low], RISING[low + 1], at - low)
+        found.append(mix(RISING[low], RISING[low + 1], at - low))
     return found
+
+
+def of_gears(numbers):
+    """Forward gears rising, reverse grey."""
+    forward = sorted(n for n in numbers if n > 0)
+    return {**{n: "#8a8f98" for n in numbers}, **dict(zip(forward, of_levels(len(forward))))}

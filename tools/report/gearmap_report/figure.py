@@ -14,7 +14,7 @@ def canvas(height, x=None, y=None, **layout):
     figure = go.Figure()
     figure.update_layout(
         template="none", height=height, margin=dict(l=64, r=16, t=40, b=52),
-        font=dict(family="inherit", size=13), hovermode="closest",
+        font=dict(family="inherit", size=13), hovermode="closest", separators=".\u202f",
         paper_bgcolor="rgba(0,0,0,0)", plot_bgcolor="rgba(0,0,0,0)", dragmode="zoom",
         legend=dict(orientation="h", x=0, xanchor="left", y=1.02, yanchor="bottom",
                     traceorder="normal"),

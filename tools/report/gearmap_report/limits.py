@@ -93,7 +93,9 @@ def range_table(data):
         about["speed_max_rpm"], "rpm", 5)],
         ["Torque at the input", "−%s to +%s" % (
             number(about["torque_max_Nm"]), unit(about["torque_max_Nm"], "N·m"))],
-        ["Oil temperature", unit(about["oil_degC"], "°C") + " only"],
+        ["Oil temperature", "%s to %s" % (number(min(data.slices)), unit(
+            max(data.slices), "°C")) if data.slices
+         else unit(about["oil_degC"], "°C") + " only"],
         ["Situations", "every gear driving and driven; with the next gear engaged; both "
          "paths loaded; shafts in neutral" if len(data.paths) > 1
          else "every gear driving and driven; neutral" if len(data.drag)
@@ -111,8 +113,9 @@ def missing_list(data):
             ", with a natural frequency of %s to %s" % (
                 number(frequencies(data)[0], 2), unit(frequencies(data)[1], "Hz", 2))
             if frequencies(data) else ""),
-        "<b>Heat.</b> The oil has one temperature. How the gearset warms up is not "
-        "computed.",
+        "<b>Heat.</b> %s How the gearset warms up is not computed." % (
+            "The oil temperature is an input of the component." if data.slices
+            else "The oil has one temperature."),
         "<b>Slow changes.</b> Losses follow speed and torque at once, as in steady "
         "running.",
         "<b>What is outside.</b> Clutches that start the car, engine, pumps and torque "

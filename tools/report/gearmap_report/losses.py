@@ -5,28 +5,19 @@ import pandas as pd
 import plotly.graph_objects as go
 
 from .colours import COMPARED, MUCH_KEPT, MUCH_LOST, NODE, TWO_SIDED, of_gears
-from .efficiency import all_gears
+from .efficiency import GearLosses, all_gears
 from .figure import canvas, choice, embed
-from .spread import spread
+from .lines import SPEED, TORQUE, end_labels, gear_choice
+from .oil import oil_figure, temperature_words, temperatures, usual
 from .words import easy, gear_name, paragraph, percent, unit
 
 QUANTITIES = (("lost", "lost torque", "N·m"), ("efficiency", "efficiency", "%"),
               ("power", "lost power", "W"))
-SPEED, TORQUE = "speed of the input [rpm]", "torque at the input [N·m]"
-
-
-def label(gear):
-    return "R" if gear.number == -1 else str(gear.number)
-
-
-def gear_choice(figure_id, gears):
-    return choice(figure_id, "gear", "Gear", [(g.number, label(g)) for g in gears],
-                  gears[0].number)
 
 
 # ---- one gear over speed and torque ----
 
-def surface(gear, quantity, words, unit_name):
+def surface(gear, oil, quantity, words, unit_name):
     z = {"lost": gear.lost, "efficiency": 100 * gear.efficiency, "power": gear.power}
     values = z[quantity].T
     finite = values[np.isfinite(values)]
@@ -47,7 +38,7 @@ def surface(gear, quantity, words, unit_name):
                       thickness=12, len=0.95),
         hovertemplate="%%{x:.0f} rpm, %%{y:.1f} N·m<br>%s %%{z:.4g} %s<extra></extra>"
                       % (words, unit_name),
-        meta={"gear": str(gear.number), "quantity": quantity}, showlegend=False,
+        meta={"gear": str(gear.number), "quantity": quantity, "oil": oil}, showlegend=False,
         visible=False)
 
 
@@ -121,15 +112,20 @@ def map_figure(data, results, gears):
     speed, torque = data.about["speed_max_rpm"], data.about["torque_max_Nm"]
     plot.update_xaxes(range=[-0.01 * speed, 1.01 * speed])
     plot.update_yaxes(range=[-1.03 * torque, 1.03 * torque])
+    slices = temperatures(data)
     for gear in gears:
-        for quantity in QUANTITIES:
-            plot.add_trace(surface(gear, *quantity))
+        for oil, at in slices.items():
+            here = GearLosses(at, gear.path, gear.number)
+            for quantity in QUANTITIES:
+                plot.add_trace(surface(here, "%g" % oil, *quantity))
         plot.add_trace(nodes(gear))
         points = held_out(data, gear) or held_out_worst(results, gear)
         if points is not None:
             plot.add_trace(points)
     choices = gear_choice("loss-map", gears) + choice(
-        "loss-map", "quantity", "Show", [(q, w) for q, w, _ in QUANTITIES], "lost")
+        "loss-map", "quantity", "Show", [(q, w) for q, w, _ in QUANTITIES], "lost") + choice(
+        "loss-map", "oil", "Oil", [("%g" % oil, unit(oil, "°C")) for oil in slices],
+        "%g" % usual(data))
     on_top = (" Dark points were not used for the tables: there the component was compared "
               "with the detailed model; a larger point has a larger error."
               if len(data.points) else
@@ -145,15 +141,6 @@ def map_figure(data, results, gears):
 
 
 # ---- all gears side by side ----
-
-def end_labels(gears, colours, x, heights, least, meta):
-    """The number of each gear beside the end of its line."""
-    return go.Scatter(
-        x=[x] * len(gears), y=spread(heights, least), mode="text", cliponaxis=False,
-        text=["<b>%s</b>" % label(g) for g in gears], textposition="middle right",
-        textfont=dict(color=[colours[g.number] for g in gears]), hoverinfo="skip",
-        showlegend=False, meta=meta, visible=False)
-
 
 def speeds_to_compare(data):
     return [easy(share * data.about["speed_max_rpm"]) for share in (0.15, 0.35, 0.7)]
@@ -301,13 +288,7 @@ def drag_figure(data):
                  "speed of the output.", choices)
 
 
-# ---- temperature ----
-
-def temperature_words(data):
-    oil = data.about["oil_degC"]
-    return paragraph("All losses are those at an oil temperature of %s. Colder oil is "
-                     "thicker and drags more." % unit(oil, "°C"))
-
+# ---- all of it ----
 
 def best_words(data, gears):
     best = max(((np.nanmax(g.efficiency[:, g.torque > 0]), g) for g in gears),
@@ -332,6 +313,9 @@ def chapter(data, results, breakdown):
                  + comparison_figure(data, gears) + "</section>")
     text += ('<section id="idle"><h2>What does it lose without load?</h2>'
              + no_load_figure(data, gears) + "</section>")
+    if data.slices:
+        text += ('<section id="temperature"><h2>How much does the oil temperature matter?'
+                 "</h2>" + oil_figure(data, gears) + "</section>")
     if len(data.drag):
         text += ('<section id="free"><h2>How strongly are free shafts held back?</h2>'
                  + drag_figure(data) + "</section>")

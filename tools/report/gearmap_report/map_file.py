@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-2-Clause
 """The map: everything that the page shows of it, as tables of pandas."""
 import sqlite3
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import pandas as pd
@@ -17,9 +17,10 @@ class Map:
     about: pd.Series  # v_map: name, title, ranges, hashes
     gears: pd.DataFrame  # v_gear
     configurations: pd.DataFrame
-    load_loss: pd.DataFrame
+    load_loss: pd.DataFrame  # of the usual oil temperature, as the next two
     parasitic: pd.DataFrame
     drag: pd.DataFrame
+    slices: dict  # oil temperature [degC] -> the last three, where there are several
     errors: pd.DataFrame  # verification, or empty
     points: pd.DataFrame  # compared points with their case, or empty
     tables: int
@@ -35,6 +36,10 @@ class Map:
     def paths(self):
         """Names in the order of the map."""
         return list(self.gears["path"].drop_duplicates())
+
+    def at(self, temperature):
+        """The same map at one of its oil temperatures."""
+        return replace(self, **self.slices[temperature])
 
     def all_gears(self):
         """(path, number), forward gears first and rising, reverse last."""
@@ -86,12 +91,14 @@ def optional(connection, table, query):
     return pd.read_sql_query(query, connection) if there else pd.DataFrame()
 
 
-def usual_oil(table, temperature):
-    """Of a map with an oil axis the values at the temperature nearest to the usual one."""
-    if "oil_degC" not in table.columns or table.empty:
-        return table
-    away = (table["oil_degC"] - temperature).abs()
-    return table[away == away.min()].drop(columns="oil_degC").reset_index(drop=True)
+def slices_of(tables):
+    """{oil temperature: tables at it} of tables by name; none if there is only one."""
+    oil = next(iter(tables.values())).get("oil_degC")
+    temperatures = [] if oil is None else sorted(oil.unique())
+    if len(temperatures) < 2:
+        return {}
+    return {float(t): {name: rows[rows["oil_degC"] == t] for name, rows in tables.items()}
+            for t in temperatures}
 
 
 def read_map(path):
@@ -100,17 +107,20 @@ def read_map(path):
         check_kind(path, connection)
 
         def view(name):
-            return usual_oil(pd.read_sql_query("SELECT * FROM %s" % name, connection),
-                             about["oil_degC"])
+            return pd.read_sql_query("SELECT * FROM %s" % name, connection)
 
-        about = pd.read_sql_query("SELECT * FROM v_map", connection).iloc[0]
         text = optional(connection, "description", "SELECT text FROM description")
         kept = optional(connection, "result", "SELECT json FROM result ORDER BY rowid")
         count = connection.execute("SELECT count(*) FROM map_table").fetchone()[0]
         values = connection.execute("SELECT count(*) FROM value").fetchone()[0]
+        about = view("v_map").iloc[0]
+        tables = {"load_loss": view("v_load_loss"), "parasitic": view("v_parasitic_loss"),
+                  "drag": view("v_drag")}
+        slices = slices_of(tables)
+        if slices:
+            tables = slices[min(slices, key=lambda t: abs(t - about["oil_degC"]))]
         return Map(path=str(path), about=about, gears=view("v_gear"),
-                   configurations=view("v_configuration"), load_loss=view("v_load_loss"),
-                   parasitic=view("v_parasitic_loss"), drag=view("v_drag"),
+                   configurations=view("v_configuration"), **tables, slices=slices,
                    errors=optional(connection, "verification", VERIFICATION),
                    points=optional(connection, "verification_point", POINTS),
                    tables=count, values=values,

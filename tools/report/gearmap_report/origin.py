@@ -21,6 +21,8 @@ def option_words(options):
     found = []
     for option in options.split():
         name, _, value = option.partition("=")
+        if name == "oil_axis":  # its temperatures have a line of their own
+            continue
         words, say = OPTIONS.get(name, (name, None))
         try:
             found.append("%s %s" % (words, say(float(value))))
@@ -49,6 +51,8 @@ def map_section(data, results):
             ["Description it was made from (SHA-256)",
              "<code>%s</code>" % about["input_sha256"]],
             ["How it was swept", escape(option_words(about["options"]))],
+            *([["Oil temperatures", ", ".join(unit(oil, "°C") for oil in data.slices)]]
+              if data.slices else []),
             ["Made by", "Gearmap %s" % escape(about["tool_version"])]]
     rows += measured_rows(results)
     if results.names:
