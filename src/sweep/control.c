@@ -61,19 +61,20 @@ void gm_control_destroy(gm_control *control)
     gm_free(control);
 }
 
-/* Tolerance of a gear's loss at its flange, as its refinement ended with. */
-static double load_tolerance(const gm_control *c, int path, int gear, int direction)
+/* Tolerance of a gear's loss at its flange in a slice, as its refinement ended with. */
+static double load_tolerance(const gm_control *c, int path, int gear, int direction,
+                             int slice)
 {
     gm_table_key key = gm_sweep_load_key(path, gear, direction);
     const gm_map_table *table = gm_map_find(c->plan->map, &key);
     for (int u = 0; u < c->plan->n_units; u++)
         if (&c->plan->map->tables[c->plan->units[u].table] == table)
-            return c->units[u].state.tolerance[0];
+            return c->units[u].state.tolerance[2 * slice];
     return 0.0;
 }
 
 /* The strictest one of the engaged gears of a configuration, at the output. */
-static double output_tolerance(const gm_control *c, const gm_table_key *key)
+static double output_tolerance(const gm_control *c, const gm_table_key *key, int slice)
 {
     const gm_map *map = c->plan->map;
     double least = HUGE_VAL;
@@ -81,10 +82,21 @@ static double output_tolerance(const gm_control *c, const gm_table_key *key)
         double ratio = gm_sweep_ratio(map, p, key->gear[p]);
         int backward = (ratio < 0) != (key->direction[0] == GM_BACKWARD);
         if (ratio != 0.0)
-            least =
-                fmin(least, fabs(ratio) * load_tolerance(c, p, key->gear[p], backward));
+            least = fmin(least, fabs(ratio) *
+                                    load_tolerance(c, p, key->gear[p], backward, slice));
     }
     return least;
+}
+
+/* Of P of all slices; 0 where it has none: nothing is engaged, or another table. */
+static int output_tolerances(const gm_control *c, const gm_unit *unit, double *output)
+{
+    const gm_map_table *table = &c->plan->map->tables[unit->table];
+    if (unit->kind != GM_UNIT_PARASITIC)
+        return 0;
+    for (int k = 0; k < table->slices; k++)
+        output[k] = output_tolerance(c, &table->key, k);
+    return isfinite(output[0]);
 }
 
 gm_status gm_control_begin(gm_control *control, int phase, gm_error *error)
@@ -97,12 +109,11 @@ gm_status gm_control_begin(gm_control *control, int phase, gm_error *error)
     control->phase = phase;
     for (int u = 0; u < plan->n_units && status == GM_OK; u++) {
         const gm_unit *unit = &plan->units[u];
-        double output = HUGE_VAL;
+        double output[GM_MAP_MAX_OIL];
         if (unit->phase != phase)
             continue;
-        if (unit->kind == GM_UNIT_PARASITIC)
-            output = output_tolerance(control, &plan->map->tables[unit->table].key);
-        gm_control_spec(plan, unit, &control->tolerance, output, spec);
+        gm_control_spec(plan, unit, &control->tolerance,
+                        output_tolerances(control, unit, output) ? output : NULL, spec);
         spec->seed = (uint64_t)u + 1;
         status = gm_refine_create(spec, &control->units[u].refine, error);
     }

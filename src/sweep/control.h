@@ -18,10 +18,11 @@ typedef struct gm_control_tolerance {
     double torque; /* N.m at a path's flange */
 } gm_control_tolerance;
 
-/** What the refinement of a unit begins with and has to reach. output: tolerance at the
- *  output [N.m] of P with all paths engaged, from the load losses of its gears. */
+/** What the refinement of a unit begins with and has to reach, in all slices. output: of
+ *  P with all paths engaged the tolerances at the output [N.m], [slices], from the load
+ *  losses of its gears; else NULL. */
 void gm_control_spec(const gm_sweep_plan *plan, const gm_unit *unit,
-                     const gm_control_tolerance *tolerance, double output,
+                     const gm_control_tolerance *tolerance, const double *output,
                      gm_refine_spec *spec);
 
 typedef struct gm_control gm_control;

@@ -235,7 +235,7 @@ static double lever(const builder *b)
     return largest > 0.0 ? largest : 1.0;
 }
 
-static void tolerances(const builder *b, double output)
+static void tolerances(const builder *b, const double *output)
 {
     gm_unit_kind kind = b->unit->kind;
     gm_refine_spec *spec = b->spec;
@@ -246,21 +246,22 @@ static void tolerances(const builder *b, double output)
         spec->absolute[k] = part * b->tolerance->torque * arm;
         spec->noise[k] = NOISE * b->plan->map->torque_max * arm;
     }
-    if (isfinite(output)) {
-        spec->share = 0.0;
-        spec->absolute[0] = ADDED / MAIN * output;
-    }
+    if (!output)
+        return;
+    spec->share = 0.0;
+    for (int k = 0; k < spec->n_values; k++)
+        spec->absolute[k] = ADDED / MAIN * output[k];
 }
 
 void gm_control_spec(const gm_sweep_plan *plan, const gm_unit *unit,
-                     const gm_control_tolerance *tolerance, double output,
+                     const gm_control_tolerance *tolerance, const double *output,
                      gm_refine_spec *spec)
 {
     const gm_map_table *table = &plan->map->tables[unit->table];
     builder b = {plan, unit, table, tolerance, spec};
     memset(spec, 0, sizeof *spec);
     spec->n_axes = table->n_axes;
-    spec->n_values = unit->kind == GM_UNIT_LOAD || unit->kind == GM_UNIT_DRAG ? 2 : 1;
+    spec->n_values = gm_unit_values(unit) * table->slices;
     spec->is_sum = unit->kind == GM_UNIT_LOAD;
     spec->monotone = plan->monotone;
     axes_of(&b);

@@ -2,6 +2,7 @@
 #include "sweep/experiments.h"
 
 #include <math.h>
+#include <string.h>
 
 /* How far from a line, relative to the speed there, a point is put that belongs to one
    side of it: above rounding, far below what friction notices. */
@@ -317,12 +318,17 @@ gm_status gm_experiment_at(const gm_sweep_plan *plan, const gm_unit *unit,
                            const double *x, gm_point_solver *solver, gm_sample *sample,
                            gm_error *error)
 {
+    const int n = gm_unit_values(unit);
     place p = place_of(plan, unit, solver, error);
-    gm_sample found = {{0.0}, {0.0}};
+    gm_status status = GM_OK;
     p.x = x;
-    gm_status status = sample_at(&p, unit, &found);
-    if (status == GM_OK)
-        *sample = found;
+    for (p.oil = 0; p.oil < p.table->slices && status == GM_OK; p.oil++) {
+        gm_sample found = {{0.0}, {0.0}};
+        gm_point_solver_choose(solver, p.oil);
+        status = sample_at(&p, unit, &found);
+        memcpy(&sample->value[p.oil * n], found.value, (size_t)n * sizeof(double));
+        memcpy(&sample->size[p.oil * n], found.size, (size_t)n * sizeof(double));
+    }
     return status;
 }
 

@@ -26,7 +26,8 @@
 #include "sweep/points.h"
 #include "sweep/refine.h"
 
-/** What a unit's tables hold between their nodes, at coordinates x of its axes:
+/** What a unit's tables hold between their nodes, at coordinates x of its axes, for each
+ *  slice of the map one after the other:
  *    D and P  value[0]: P / |r_p| + D, the loss at the path's flange; value[1]: D
  *    N and R  value[0]: N, value[1]: R, both without the steps on the lines
  *    others   value[0]: what the table holds

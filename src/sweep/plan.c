@@ -390,6 +390,11 @@ static gm_status plan_all(builder *b)
     return status == GM_OK && two ? plan_doubles(b) : status;
 }
 
+int gm_unit_values(const gm_unit *unit)
+{
+    return unit->kind == GM_UNIT_LOAD || unit->kind == GM_UNIT_DRAG ? 2 : 1;
+}
+
 int gm_unit_rows(const gm_sweep_plan *plan, const gm_unit *unit)
 {
     return plan->map->tables[unit->table].n[0];

@@ -61,6 +61,9 @@ GM_NODISCARD gm_status gm_sweep_plan_create(const gm_plant *plant,
                                             gm_sweep_plan **plan, gm_error *error);
 void gm_sweep_plan_destroy(gm_sweep_plan *plan);
 
+/** Quantities that one sample of a unit finds, in each slice: see experiments.h. */
+int gm_unit_values(const gm_unit *unit);
+
 /** Rows of a unit, and about how many points each one takes. */
 int gm_unit_rows(const gm_sweep_plan *plan, const gm_unit *unit);
 int gm_unit_row_points(const gm_sweep_plan *plan, const gm_unit *unit);

@@ -30,7 +30,7 @@ gm_status gm_refine_want(gm_refine *refine, const double *x, gm_error *error)
     return no_memory(error);
 }
 
-const gm_sample *gm_refine_sample(const gm_refine *refine, const double *x)
+const double *gm_refine_sample(const gm_refine *refine, const double *x)
 {
     double key[GM_MAX_AXES];
     key_of(refine, x, key);
@@ -45,8 +45,12 @@ gm_status gm_refine_create(const gm_refine_spec *spec, gm_refine **refine,
         return no_memory(error);
     made->spec = *spec;
     made->random = spec->seed;
-    made->memo = gm_memo_create(GM_MAX_AXES * sizeof(double), sizeof(gm_sample));
-    gm_status status = made->memo ? gm_refine_lines_begin(made, error) : no_memory(error);
+    made->memo = gm_memo_create(GM_MAX_AXES * sizeof(double),
+                                2 * (size_t)spec->n_values * sizeof(double));
+    if (spec->is_sum)
+        made->rest = gm_calloc((size_t)spec->n_values / 2 * GM_NODES_MAX, sizeof(double));
+    int complete = made->memo && (made->rest || !spec->is_sum);
+    gm_status status = complete ? gm_refine_lines_begin(made, error) : no_memory(error);
     if (status == GM_OK)
         *refine = made;
     else
@@ -59,6 +63,7 @@ void gm_refine_destroy(gm_refine *refine)
     if (!refine)
         return;
     gm_memo_destroy(refine->memo);
+    gm_free(refine->rest);
     for (int k = 0; k < GM_REFINE_VALUES; k++)
         gm_free(refine->grid[k]);
     gm_free(refine);
@@ -76,8 +81,10 @@ const double *gm_refine_point(const gm_refine *refine, int i)
 
 void gm_refine_tell(gm_refine *refine, int i, const gm_sample *sample)
 {
-    gm_sample *to = gm_memo_value(refine->memo, refine->known + i);
-    *to = *sample;
+    double *to = gm_memo_value(refine->memo, refine->known + i);
+    size_t n = (size_t)refine->spec.n_values;
+    memcpy(to, sample->value, n * sizeof *to);
+    memcpy(to + n, sample->size, n * sizeof *to);
 }
 
 /* Sizes grow with what is found, and the tolerances with them. */
@@ -85,9 +92,10 @@ static void take_in(gm_refine *r)
 {
     const gm_refine_spec *spec = &r->spec;
     for (; r->known < gm_memo_count(r->memo); r->known++) {
-        const gm_sample *s = gm_memo_value(r->memo, r->known);
+        const double *size =
+            (const double *)gm_memo_value(r->memo, r->known) + spec->n_values;
         for (int k = 0; k < spec->n_values; k++)
-            r->largest[k] = fmax(r->largest[k], s->size[k]);
+            r->largest[k] = fmax(r->largest[k], size[k]);
     }
     for (int k = 0; k < spec->n_values; k++)
         r->state.tolerance[k] =

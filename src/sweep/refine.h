@@ -27,7 +27,7 @@
 
 #include <stdint.h>
 
-#define GM_REFINE_VALUES 2
+#define GM_REFINE_VALUES (2 * GM_MAP_MAX_OIL) /* most quantities over the same axes */
 #define GM_REFINE_CUTS 16
 
 typedef struct gm_refine_axis {
@@ -49,8 +49,8 @@ typedef struct gm_refine_spec {
     int n_axes;
     gm_refine_axis axis[GM_MAX_AXES];
     int n_values;
-    int is_sum;   /* 1: value[0] is read as value[1], of two axes, and the rest, which
-                   depends on axis 0 alone and has a table of its own */
+    int is_sum;   /* 1: values 0, 2, ... are read as the one after them, of two axes, and
+                   the rest, which depends on axis 0 alone and has a table of its own */
     double share; /* tolerance, of the largest size; or 0 */
     double absolute[GM_REFINE_VALUES]; /* tolerance; or 0. The larger of both counts */
     double noise[GM_REFINE_VALUES];    /* no tolerance is below this, > 0 */

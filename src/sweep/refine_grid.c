@@ -84,6 +84,11 @@ gm_status gm_refine_grid_hold_out(gm_refine *refine, gm_error *error)
 
 /* ---- interpolation ---- */
 
+static double *rest_of(const gm_refine *r, int k)
+{
+    return r->rest + k / 2 * GM_NODES_MAX;
+}
+
 static gm_status make_grid(gm_refine *r, gm_error *error)
 {
     int n = size_of(r);
@@ -97,11 +102,12 @@ static gm_status make_grid(gm_refine *r, gm_error *error)
     for (int i = 0; i < n; i++) {
         double x[GM_MAX_AXES] = {0.0};
         node(r, i, x);
-        const gm_sample *sample = gm_refine_sample(r, x);
+        const double *value = gm_refine_sample(r, x);
         for (int k = 0; k < r->spec.n_values; k++)
-            r->grid[k][i] = sample->value[k];
-        if (r->spec.is_sum) /* the same for all nodes of axis 1 */
-            r->rest[i / r->nodes[1].n] = sample->value[0] - sample->value[1];
+            r->grid[k][i] = value[k];
+        for (int k = 0; r->spec.is_sum && k < r->spec.n_values; k += 2)
+            /* the same for all nodes of axis 1 */
+            rest_of(r, k)[i / r->nodes[1].n] = value[k] - value[k + 1];
     }
     return GM_OK;
 }
@@ -116,8 +122,8 @@ static double read_one(const gm_refine *r, const double *x, const double *value)
 /* As the reduced gearset will read the table; three axes are always linear. */
 static double interpolate(const gm_refine *r, const double *x, int k)
 {
-    if (r->spec.is_sum && k == 0)
-        return interpolate(r, x, 1) + read_one(r, x, r->rest);
+    if (r->spec.is_sum && k % 2 == 0)
+        return interpolate(r, x, k + 1) + read_one(r, x, rest_of(r, k));
     if (r->spec.n_axes == 1)
         return read_one(r, x, r->grid[k]);
     if (r->spec.n_axes == 2) {
@@ -182,11 +188,11 @@ static int worst_axis(const gm_refine *r, const int *cell)
 
 /* Largest error of the quantities at a point, in tolerances; the state keeps the
    worst. */
-static double compare(gm_refine *r, const double *x, const gm_sample *sample)
+static double compare(gm_refine *r, const double *x, const double *value)
 {
     double largest = 0.0;
     for (int k = 0; k < r->spec.n_values; k++) {
-        double off = fabs(interpolate(r, x, k) - sample->value[k]);
+        double off = fabs(interpolate(r, x, k) - value[k]);
         double in_tolerances = off / r->state.tolerance[k];
         largest = fmax(largest, in_tolerances);
         if (in_tolerances <= r->state.error)

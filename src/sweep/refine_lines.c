@@ -76,7 +76,7 @@ static double value_on(const gm_refine *r, int axis, int line, double at, int k)
     double x[GM_MAX_AXES] = {0.0};
     gm_refine_line(r, axis, line, x);
     x[axis] = at;
-    return gm_refine_sample(r, x)->value[k];
+    return gm_refine_sample(r, x)[k];
 }
 
 static double middle(const gm_refine_samples *s, int i)

@@ -29,7 +29,7 @@ typedef enum gm_refine_stage {
 struct gm_refine {
     gm_refine_spec spec;
     gm_refine_stage stage;
-    gm_memo *memo;    /* coordinates -> gm_sample */
+    gm_memo *memo;    /* coordinates -> values [n_values], sizes [n_values] */
     long known;       /* entries of the memo that were told; those after are wanted */
     long first_check; /* the first entry of the points held out now */
     uint64_t random;
@@ -38,7 +38,7 @@ struct gm_refine {
     gm_refine_samples samples[GM_MAX_AXES];
     gm_nodes nodes[GM_MAX_AXES];
     double *grid[GM_REFINE_VALUES]; /* values at the nodes */
-    double rest[GM_NODES_MAX];      /* of a sum: over axis 0 */
+    double *rest; /* of sums: [n_values / 2][GM_NODES_MAX] over axis 0 */
     gm_refine_state state;
 };
 
@@ -46,8 +46,8 @@ struct gm_refine {
 GM_NODISCARD gm_status gm_refine_want(gm_refine *refine, const double *x,
                                       gm_error *error);
 
-/** A known sample. */
-const gm_sample *gm_refine_sample(const gm_refine *refine, const double *x);
+/** Values of a known sample. */
+const double *gm_refine_sample(const gm_refine *refine, const double *x);
 
 /** Number of lines along an axis, and the coordinates of line `number` (that of the axis
  *  is left alone). */
