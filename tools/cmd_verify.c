@@ -105,6 +105,13 @@ static gm_status choose_on_axis(const arguments *a, const gm_fmu_origin *origin,
             error, GM_ERR_MODEL,
             "%s: was made for oil temperatures from %g to %g degC, not %g degC", a->fmu,
             low - KELVIN, high - KELVIN, a->oil_temperature - KELVIN);
+    if (a->drive.cycle &&
+        fabs(a->oil_temperature - origin->oil_temperature) > SAME_TEMPERATURE)
+        return gm_fail(error, GM_ERR_MODEL,
+                       "%s: drives are compared at the oil temperature that it starts "
+                       "with, %g degC, not %g degC",
+                       a->fmu, origin->oil_temperature - KELVIN,
+                       a->oil_temperature - KELVIN);
     *temperature = a->oil_temperature;
     return GM_OK;
 }

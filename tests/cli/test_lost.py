@@ -25,6 +25,8 @@ SWEEPS = {
     "by error, cubics": [SMALL, "--tolerance", "0.05%", "--interpolation", "monotone"],
     "steps": [SMALL, "--speed-step", "50rpm", "--torque-step", "4Nm"],
     "two paths": [EXAMPLE, "--tolerance", "2%"],
+    "oil axis, steps": [SMALL, "--speed-step", "200rpm", "--torque-step", "8Nm",
+                        "--oil-temperature", "-10,20,60,100"],
 }
 
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
  * Sweeps with an oil axis: each slice is what a sweep at its temperature alone finds;
- * what is read between them is compared with gearsets whose losses follow known laws of the
- * temperature.
+ * what is read between them is compared with gearsets whose losses follow known laws of
+ * the temperature.
  */
 #include "sweep/gm_sweep.h"
 #include "sweep/gm_verify.h"
