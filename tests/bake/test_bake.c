@@ -236,6 +236,19 @@ static gm_status bake_with_failure(const place *at, int k, const char *compiler)
 
 /* The k-th allocation fails: all up to the compiler (one that makes no library, since
  * that is quick), and some after it. */
+static void only_paths_with_springs_may_be_given(void **state)
+{
+    place *at = *state;
+    gm_bake_options options = usual;
+    options.speed_in = "odd";
+    at->map->paths[0].gears[1].stiffness = 0.0;
+    assert_fails(at, &options, GM_ERR_ARGUMENT, "odd can be no input: its gear 3");
+    options.speed_in = "input";
+    assert_fails(at, &options, GM_ERR_ARGUMENT, "only odd, even, output");
+    options.speed_in = "";
+    assert_fails(at, &options, GM_ERR_ARGUMENT, "no flange \"\"");
+}
+
 static void failed_allocations_leave_nothing(void **state)
 {
     place *at = *state;
@@ -267,6 +280,7 @@ int main(void)
         IN_PLACE(names_that_are_no_words_are_refused),
         IN_PLACE(an_incomplete_map_is_refused),
         IN_PLACE(foreign_texts_cannot_break_the_description),
+        IN_PLACE(only_paths_with_springs_may_be_given),
         IN_PLACE(failed_allocations_leave_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -21,6 +21,18 @@ def test_bakes_the_same_bytes_twice(example_map, tmp_path):
     assert (tmp_path / "a.fmu").read_bytes() == (tmp_path / "other" / "a.fmu").read_bytes()
 
 
+def test_speeds_in(example_map, tmp_path):
+    """Another component of the same map; a flange that is not there leaves nothing."""
+    guids = [result_of("bake", example_map, "-o", tmp_path / f"{n}.fmu", *more)["guid"]
+             for n, more in enumerate([(), ("--speed-in", "output"),
+                                       ("--speed-in", "output,odd")])]
+    assert len(set(guids)) == 3
+    sentence = fails("bake", example_map, "-o", tmp_path / "x.fmu", "--speed-in", "output,front")
+    assert sentence == ('there is no flange "front" whose speed could be an input '
+                        "(only odd, even, output)")
+    assert len(list(tmp_path.iterdir())) == 3
+
+
 def test_json_of_a_bake(example_map, tmp_path):
     r = result_of("bake", example_map, "-o", tmp_path / "a.fmu")
     assert r["size_bytes"] == (tmp_path / "a.fmu").stat().st_size

@@ -39,16 +39,17 @@ def gears(example):
 
 @pytest.fixture(scope="session", params=["dct7", "mt5"])
 def example(request, tmp_path_factory):
-    """.fmu, .folder (unpacked), .description, .gears, .rows (drive.Fine), .outputs"""
+    """.fmu, .map, .folder (unpacked), .description, .gears, .rows (drive.Fine), .outputs"""
     folder = tmp_path_factory.mktemp(request.param)
     source, fmu = ROOT / f"examples/{request.param}.yaml", folder / f"{request.param}.fmu"
-    subprocess.run([GEARMAP, "reduce", source, "-o", fmu], check=True, capture_output=True)
+    subprocess.run([GEARMAP, "reduce", source, "-o", fmu, "--map", folder / "example.map"], check=True,
+                   capture_output=True)
     unpacked = fmpy.extract(str(fmu), unzipdir=str(folder / "unpacked"))
     description = fmpy.read_model_description(str(fmu))
     outputs = [v.name for v in description.modelVariables if v.causality == "output"]
     gearset = gears(source)
     rows = drive.steer(drive.Fine, description, unpacked, gearset, START)
-    return SimpleNamespace(fmu=str(fmu), folder=Path(unpacked), description=description,
+    return SimpleNamespace(fmu=str(fmu), map=folder / "example.map", folder=Path(unpacked), description=description,
                            gears=gearset, rows=rows, outputs=outputs)
 
 

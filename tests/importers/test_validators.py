@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import fmpy
 import numpy as np
@@ -44,6 +45,20 @@ def test_fmutool_check(example):
     assert "No semantic error against the FMI-2 standard." in said
     assert not any(line.startswith(("WARN", "ERROR", "CRITICAL")) for line in
                    said.splitlines()), said
+
+
+def test_speeds_in(example, tmp_path):
+    """The FMU with motion in at its first path and at the output."""
+    fmu = tmp_path / "speed_in.fmu"
+    flanges = f"{next(iter(example.gears))},output"
+    subprocess.run([os.environ["GEARMAP"], "bake", example.map, "--speed-in", flanges, "-o", fmu],
+                   check=True, capture_output=True)
+    unpacked = Path(fmpy.extract(str(fmu), unzipdir=str(tmp_path / "unpacked")))
+    variant = SimpleNamespace(fmu=str(fmu), folder=unpacked)
+    test_fmpy_validate(variant)
+    test_schema(variant)
+    test_page_is_well_formed(variant)
+    test_fmutool_check(variant)
 
 
 def result(fmu):
