@@ -83,9 +83,12 @@ static gm_status sweep(const arguments *a, int *skipped, gm_error *error)
     gm_gearset_file file;
     outcome o = {.measured = false};
     gm_status status = gm_file_check_output(a->output, a->description, error);
+    gm_experiment_choice how;
+    if (status == GM_OK)
+        status = gm_stage_choose(&a->sweep, &how, error);
     if (status == GM_OK)
         status = gm_gearset_file_open_any(a->description, gm_stage_temperature(&a->sweep),
-                                          &file, error);
+                                          &how, &file, error);
     if (status != GM_OK)
         return status;
     status = sweep_file(a, &file, &o, error);

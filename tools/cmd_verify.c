@@ -181,7 +181,8 @@ static gm_status verify_fmu(const arguments *a, gm_fmu *fmu, gm_error *error)
     double temperature = (double)NAN;
     gm_status status = choose_temperature(a, &origin, &temperature, error);
     if (status == GM_OK)
-        status = gm_gearset_file_open_any(a->description, temperature, &file, error);
+        status =
+            gm_gearset_file_open_any(a->description, temperature, NULL, &file, error);
     if (status != GM_OK)
         return status;
     status = compare(a, fmu, &file, &c, error);

@@ -23,12 +23,21 @@ static gm_status open_one(const gm_gearset_file *file, double temperature,
                           gm_gearset_file *made, gm_error *error)
 {
     if (file->rig)
-        return gm_gearset_file_open_any(file->path, temperature, made, error);
+        return gm_gearset_file_open_any(file->path, temperature, &file->how, made, error);
     made->oil_temperature = temperature;
     gm_status status =
         gm_gearset_create(file->description, temperature, &made->gearset, error);
-    return status == GM_OK ? gm_builtin_create(made->gearset, &made->plant, error)
-                           : status;
+    if (status == GM_OK)
+        status = gm_builtin_create(made->gearset, &made->solved, error);
+    made->plant = made->solved;
+    made->how = file->how;
+    if (status != GM_OK || !file->measured)
+        return status;
+    status = gm_measured_builtin_create(made->gearset, made->solved, &made->how,
+                                        &made->measured, error);
+    if (status == GM_OK)
+        made->plant = gm_measured_builtin_plant(made->measured);
+    return status;
 }
 
 gm_status gm_oil_plants_open(const gm_gearset_file *file, int n,
@@ -69,7 +78,9 @@ gm_status gm_oil_plants_hold_out(const gm_gearset_file *file, int n, const doubl
         const double part = (axis[i / parts + 1] - low) / parts;
         temperature[i] = low + part * (i % parts + gm_random_between(&random, 0.0, 1.0));
     }
-    return gm_oil_plants_open(file, parts * (n - 1), temperature, plants, error);
+    gm_gearset_file truth = *file; /* what can be solved is not measured */
+    truth.measured = NULL;
+    return gm_oil_plants_open(&truth, parts * (n - 1), temperature, plants, error);
 }
 
 void gm_oil_plants_close(gm_oil_plants *plants)

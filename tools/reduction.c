@@ -110,9 +110,12 @@ gm_status gm_reduce(const gm_reduce_settings *a, gm_reduction *r, gm_error *erro
     gm_status status = check_before(a, error);
     if (status == GM_OK)
         status = gm_file_own_name(a->output, name, error);
+    gm_experiment_choice how;
+    if (status == GM_OK)
+        status = gm_stage_choose(&a->sweep, &how, error);
     if (status == GM_OK)
         status = gm_gearset_file_open_any(a->description, gm_stage_temperature(&a->sweep),
-                                          &r->file, error);
+                                          &how, &r->file, error);
     if (status == GM_OK)
         status = gm_stage_sweep(&r->file, &settings, a->map, &r->sweep, error);
     if (status == GM_OK)

@@ -16,12 +16,45 @@ static const gm_rig *choose_rig(gm_rig_source *s)
     return &s->continuous.rig;
 }
 
+/* What the user chose goes before what the rig file says. */
+static gm_status choose(gm_rig_source *s, const gm_experiment_choice *how,
+                        gm_error *error)
+{
+    const gm_rig_experiments *e = &s->file->experiments;
+    s->how =
+        (gm_experiment_choice){.losses = e->ramps ? GM_LOSSES_RAMP : GM_LOSSES_SETTLE,
+                               .inertia = GM_INERTIA_RAMPS,
+                               .dwell = e->dwell,
+                               .ramp_time = e->ramp_time};
+    if (!how)
+        return GM_OK;
+    if (how->losses == GM_LOSSES_STEADY)
+        return gm_fail(
+            error, GM_ERR_ARGUMENT,
+            "%s: a foreign model can only be simulated, there is no balance to "
+            "solve for losses steady; settle and ramp are possible",
+            s->file->model_path);
+    if (how->inertia == GM_INERTIA_MATRIX)
+        return gm_fail(error, GM_ERR_ARGUMENT,
+                       "%s: a foreign model has no mass matrix that could be read; "
+                       "inertia ramps is possible",
+                       s->file->model_path);
+    if (how->losses != GM_LOSSES_AUTO)
+        s->how.losses = how->losses;
+    if (how->dwell > 0.0)
+        s->how.dwell = how->dwell;
+    if (how->ramp_time > 0.0)
+        s->how.ramp_time = how->ramp_time;
+    return GM_OK;
+}
+
 static gm_status identify(gm_rig_source *s, gm_error *error)
 {
     const gm_rig_experiments *e = &s->file->experiments;
     gm_plant_info info = gm_rig_file_info(s->file, s->gears);
-    gm_rig_settings settings = {.dwell = e->dwell,
-                                .ramp_time = e->ramp_time,
+    gm_rig_settings settings = {.dwell = s->how.dwell,
+                                .ramp_time = s->how.ramp_time,
+                                .losses_by_ramps = s->how.losses == GM_LOSSES_RAMP,
                                 .creep = e->creep,
                                 .time_limit = e->time_limit};
     gm_error why = {GM_OK, ""};
@@ -36,7 +69,8 @@ static gm_status identify(gm_rig_source *s, gm_error *error)
 }
 
 gm_status gm_rig_source_open(const char *path, double oil_temperature,
-                             gm_rig_source **source, gm_error *error)
+                             const gm_experiment_choice *how, gm_rig_source **source,
+                             gm_error *error)
 {
     gm_rig_source *s = gm_calloc(1, sizeof *s);
     if (!s)
@@ -44,6 +78,8 @@ gm_status gm_rig_source_open(const char *path, double oil_temperature,
     gm_status status = gm_rig_file_read(path, &s->file, error);
     if (status == GM_OK && !isnan(oil_temperature))
         s->file->oil_temperature = oil_temperature;
+    if (status == GM_OK)
+        status = choose(s, how, error);
     if (status == GM_OK)
         status = gm_foreign_open(s->file, &s->foreign, error);
     if (status == GM_OK)

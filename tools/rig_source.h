@@ -7,7 +7,7 @@
 
 #include "plant/gm_foreign.h"
 #include "solve/gm_continuous_rig.h"
-#include "sweep/gm_rig_plant.h"
+#include "sweep/gm_experiment_choice.h"
 
 #include <stdbool.h>
 
@@ -18,10 +18,13 @@ typedef struct gm_rig_source {
     gm_plant_gear gears[GM_MAX_INPUT_PATHS][32];
     gm_plant *plant;
     gm_rig_report report;
+    gm_experiment_choice how; /* of the rig file, or as chosen */
 } gm_rig_source;
 
-/** oil_temperature [K]; NAN: the rig file's. */
+/** oil_temperature [K]; NAN: the rig file's. how: NULL or automatic: the rig file's.
+ *  GM_ERR_ARGUMENT: a foreign model cannot do this. */
 GM_NODISCARD gm_status gm_rig_source_open(const char *path, double oil_temperature,
+                                          const gm_experiment_choice *how,
                                           gm_rig_source **source, gm_error *error);
 /** Whether the model takes an oil temperature. */
 bool gm_rig_source_takes_oil(const gm_rig_source *source);

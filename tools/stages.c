@@ -64,6 +64,66 @@ static gm_status check_steps(const gm_plant *plant, const gm_sweep_settings *s,
     return status;
 }
 
+static int index_of(const char *name, const char *(*name_of)(int), int n)
+{
+    for (int i = 0; i < n; i++)
+        if (!name || strcmp(name, name_of(i)) == 0)
+            return i;
+    return -1;
+}
+
+static const char *losses_name(int i)
+{
+    return gm_losses_name((gm_losses_by)i);
+}
+
+static const char *inertia_name(int i)
+{
+    return gm_inertia_name((gm_inertia_by)i);
+}
+
+gm_status gm_stage_choose(const gm_sweep_settings *s, gm_experiment_choice *how,
+                          gm_error *error)
+{
+    int losses = index_of(s->losses, losses_name, GM_LOSSES_SETTLE + 1);
+    int inertia = index_of(s->inertia, inertia_name, GM_INERTIA_RAMPS + 1);
+    if (losses < 0)
+        return gm_fail(error, GM_ERR_ARGUMENT,
+                       "there is no experiment '%s' for losses (steady, ramp, settle)",
+                       s->losses);
+    if (inertia < 0)
+        return gm_fail(error, GM_ERR_ARGUMENT,
+                       "there is no experiment '%s' for inertias (mass-matrix, ramps)",
+                       s->inertia);
+    *how = (gm_experiment_choice){(gm_losses_by)losses, (gm_inertia_by)inertia,
+                                  or_zero(s->dwell), or_zero(s->ramp_time)};
+    return GM_OK;
+}
+
+/* What tells this sweep from the usual one of the same file; empty: nothing. */
+static void experiments_text(const gm_gearset_file *file, const gm_sweep_settings *s,
+                             char text[80])
+{
+    const gm_experiment_choice *h = &file->how;
+    int measured = s->losses || s->inertia || s->dwell > 0.0 || s->ramp_time > 0.0;
+    text[0] = '\0';
+    if (measured && (h->losses != GM_LOSSES_STEADY || h->inertia != GM_INERTIA_MATRIX))
+        (void)snprintf(text, 80, "losses=%s inertia=%s dwell=%.9g ramp_time=%.9g",
+                       gm_losses_name(h->losses), gm_inertia_name(h->inertia), h->dwell,
+                       h->ramp_time);
+}
+
+/* Beside the map, as it is no part of what the map says. */
+static gm_status keep_uncertainty(const gm_sweep_stage *stage, gm_error *error)
+{
+    const gm_map_experiments kept = {.losses = gm_losses_name(stage->how.losses),
+                                     .inertia = gm_inertia_name(stage->how.inertia),
+                                     .loss_uncertainty = stage->summary.uncertainty,
+                                     .inertia_uncertainty = stage->inertia_uncertainty,
+                                     .n_skipped = stage->summary.n_skipped};
+    return gm_map_put_experiments(stage->path, &kept, error);
+}
+
 double gm_stage_temperature(const gm_sweep_settings *settings)
 {
     return settings->oil.n == 1 ? settings->oil.value[0] : (double)NAN;
@@ -108,6 +168,8 @@ static gm_status run_sweep(const gm_gearset_file *file, gm_sweep_options *option
 gm_status gm_stage_sweep(const gm_gearset_file *file, const gm_sweep_settings *settings,
                          const char *path, gm_sweep_stage *stage, gm_error *error)
 {
+    char experiments[80];
+    experiments_text(file, settings, experiments);
     gm_sweep_options options = {
         .speed_step = or_zero(settings->speed_step),
         .torque_step = or_zero(settings->torque_step),
@@ -117,6 +179,7 @@ gm_status gm_stage_sweep(const gm_gearset_file *file, const gm_sweep_settings *s
         .tolerance_torque = settings->tolerance.torque,
         .monotone = settings->monotone,
         .threads = settings->threads == GM_OPTION_UNSET ? 0 : settings->threads,
+        .experiments = experiments[0] ? experiments : NULL,
     };
     memset(stage, 0, sizeof *stage);
     gm_status status = check_steps(file->plant, settings, error);
@@ -125,6 +188,10 @@ gm_status gm_stage_sweep(const gm_gearset_file *file, const gm_sweep_settings *s
     status = run_sweep(file, &options, &settings->oil, path, stage, error);
     stage->path = path;
     stage->tolerance = settings->tolerance;
+    stage->how = file->how;
+    stage->inertia_uncertainty = file->inertia_uncertainty;
+    if (status == GM_OK && path)
+        status = keep_uncertainty(stage, error);
     if (status == GM_OK && path && file->description)
         status = gm_keep_description(file->description, path, error);
     return status == GM_ERR_INTERRUPTED ? interrupted(path, error) : status;
@@ -203,7 +270,7 @@ static gm_status verify_probe(const gm_gearset_file *file, gm_fmu_probe *probe,
                               gm_error *error)
 {
     const gm_reduced_probe interface = gm_fmu_probe_interface(probe);
-    const gm_plant *single = file->plant;
+    const gm_plant *single = file->solved ? file->solved : file->plant;
     gm_oil_plants held_out = {.n = 0};
     gm_progress progress;
     gm_progress_begin(&progress, "verify", file->plant->info.name);
@@ -322,7 +389,7 @@ gm_status gm_stage_keep(const gm_verify_stage *stage, const gm_map *map,
 static gm_status measure(const gm_gearset_file *file, const gm_map *map, int monotone,
                          int points, int seed, gm_verify_stage *stage, gm_error *error)
 {
-    const gm_plant *single = file->plant;
+    const gm_plant *single = file->solved ? file->solved : file->plant;
     gm_oil_plants held_out = {.n = 0};
     gm_status status = GM_OK;
     if (map->n_oil > 0)

@@ -24,6 +24,8 @@ typedef struct gm_sweep_settings {
     gm_option_list oil; /* K; one: the temperature, more: an oil axis; none: the
                            description's */
     int threads;
+    const char *losses, *inertia; /* NULL: automatic */
+    double dwell, ramp_time;      /* s */
 } gm_sweep_settings;
 
 typedef struct gm_sweep_stage {
@@ -31,6 +33,8 @@ typedef struct gm_sweep_stage {
     gm_sweep_summary summary;
     const char *path; /* NULL: in memory */
     gm_option_error tolerance;
+    gm_experiment_choice how;
+    double inertia_uncertainty; /* relative */
 } gm_sweep_stage;
 
 typedef struct gm_bake_stage {
@@ -44,6 +48,11 @@ typedef struct gm_verify_stage {
     int n_oil;               /* an oil axis, K */
     double oil[GM_MAP_MAX_OIL];
 } gm_verify_stage;
+
+/** The experiments that these settings choose. GM_ERR_ARGUMENT: there is none of this
+ *  name. */
+GM_NODISCARD gm_status gm_stage_choose(const gm_sweep_settings *settings,
+                                       gm_experiment_choice *how, gm_error *error);
 
 /** Sweep with a progress bar; path NULL: the map stays in memory. When a signal stopped
  *  it, GM_ERR_INTERRUPTED with a sentence that says what is kept. */
@@ -166,6 +175,23 @@ double gm_stage_clock(void);
     {.kind = GM_OPTION_INTEGER, .name = "threads", .value = "N", .low = 1, .high = 1024, \
      .offset = GM_SWEEP_OPTION(type, threads),                                           \
      .help = "threads to compute with; default: one per core"},                          \
+    {.kind = GM_OPTION_TEXT, .name = "losses", .value = "NAME",                          \
+     .offset = GM_SWEEP_OPTION(type, losses),                                            \
+     .help = "steady: the balance of every point is solved; settle: every point is "     \
+             "simulated until nothing changes; ramp: speeds are ramped through it; "     \
+             "default: steady, of foreign models what the rig file says"},               \
+    {.kind = GM_OPTION_TEXT, .name = "inertia", .value = "NAME",                         \
+     .offset = GM_SWEEP_OPTION(type, inertia),                                           \
+     .help = "mass-matrix, or ramps of different slope; default: mass-matrix, of "       \
+             "foreign models ramps"},                                                    \
+    {.kind = GM_OPTION_QUANTITY, .name = "dwell", .value = "TIME", .unit = "s",          \
+     .low = 1e-5, .high = 1000, .offset = GM_SWEEP_OPTION(type, dwell),                  \
+     .help = "time over which torques and speeds are constant in settle; default: "      \
+             "doubled until the model answers like one inertia"},                        \
+    {.kind = GM_OPTION_QUANTITY, .name = "ramp-time", .value = "TIME", .unit = "s",      \
+     .low = 1e-4, .high = 1000, .offset = GM_SWEEP_OPTION(type, ramp_time),              \
+     .help = "time of one ramp; default: what a fifth of the largest torque takes, at "  \
+             "least eight dwells"},                                                      \
     GM_OIL_LIST_OPTION(                                                                  \
         GM_SWEEP_OPTION(type, oil),                                                      \
         "oil temperature; several, such as -10degC,20degC,80degC: tables for each, "     \

@@ -43,7 +43,10 @@ void gm_sweep_stage_json(const gm_sweep_stage *stage, gm_json *json)
                    stage->summary.largest_ratio_deviation);
     gm_json_integer(json, "size_bytes", map_size(stage));
     gm_json_number(json, "elapsed_s", stage->summary.elapsed);
+    gm_json_text(json, "losses", gm_losses_name(stage->how.losses));
+    gm_json_text(json, "inertia", gm_inertia_name(stage->how.inertia));
     gm_json_number(json, "uncertainty_Nm", stage->summary.uncertainty);
+    gm_json_number(json, "inertia_uncertainty", stage->inertia_uncertainty);
     gm_json_array(json, "skipped");
     for (int i = 0; i < stage->summary.n_skipped; i++)
         gm_json_text(json, NULL, stage->summary.skipped[i].words);
@@ -164,6 +167,21 @@ void gm_verify_stage_json(const gm_verify_stage *stage, gm_json *json)
     gm_json_number(json, "elapsed_s", stage->elapsed);
 }
 
+/* Of a simulated gearset: how it was measured, and how far that may be off. */
+static void print_experiments(const gm_sweep_stage *stage, FILE *out)
+{
+    const gm_experiment_choice *how = &stage->how;
+    if (how->losses == GM_LOSSES_STEADY && how->inertia == GM_INERTIA_MATRIX)
+        return;
+    fprintf(out, "                    losses by %s", gm_losses_name(how->losses));
+    if (how->losses != GM_LOSSES_STEADY)
+        fprintf(out, ", within %.2g N·m", stage->summary.uncertainty);
+    fprintf(out, "; inertia by %s", gm_inertia_name(how->inertia));
+    if (how->inertia == GM_INERTIA_RAMPS)
+        fprintf(out, ", within %.2g %%", 100.0 * stage->inertia_uncertainty);
+    fputc('\n', out);
+}
+
 void gm_sweep_stage_print(const gm_sweep_stage *stage, FILE *out)
 {
     const gm_sweep_summary *s = &stage->summary;
@@ -172,6 +190,7 @@ void gm_sweep_stage_print(const gm_sweep_stage *stage, FILE *out)
     if (s->resumed > 0)
         fprintf(out, " (%ld of them resumed)", s->resumed);
     fprintf(out, " in %d tables\n", stage->map->n_tables);
+    print_experiments(stage, out);
     if (stage->path)
         fprintf(out, "                    %s, %ld kB, content hash %.16s\n", stage->path,
                 map_size(stage) / 1024, stage->map->content_hash);

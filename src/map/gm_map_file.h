@@ -76,6 +76,20 @@ GM_NODISCARD gm_status gm_map_get_results(const char *path, int *n, char ***resu
                                           gm_error *error);
 void gm_map_results_free(int n, char **results);
 
+/** How the values of a map were found, and how far they may be off. */
+typedef struct gm_map_experiments {
+    const char *losses, *inertia; /* such as "settle", "ramps" */
+    double loss_uncertainty;      /* N.m, largest of any value; 0: solved */
+    double inertia_uncertainty;   /* relative, largest; 0: of the mass matrix */
+    int n_skipped;                /* points that come from their neighbours */
+} gm_map_experiments;
+
+/** Write that into a finished map's file (entries of `meta`), in place of what is there.
+ *  Map and content hash stay as they are. GM_ERR_IO, GM_ERR_FORMAT. */
+GM_NODISCARD gm_status gm_map_put_experiments(const char *path,
+                                              const gm_map_experiments *experiments,
+                                              gm_error *error);
+
 /** Keep the text of the description that a map was made from in the map's file (table
  *  `description`), in place of one that is there. Map and content hash stay as they are.
  *  GM_ERR_IO, GM_ERR_FORMAT, GM_ERR_MEMORY. */

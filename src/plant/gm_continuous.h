@@ -35,6 +35,11 @@ typedef struct gm_continuous_class {
     gm_status (*view)(void *model, double t, const double *x, gm_rig_view *view,
                       gm_error *error);
     const char *(*why)(const void *model);
+    /* d rates / d x in compressed columns: column_start[n_states + 1], row[entries],
+       value[entries]. NULL: the solver takes differences. */
+    int (*entries)(const void *model);
+    void (*pattern)(const void *model, int *column_start, int *row);
+    int (*jacobian)(void *model, double t, const double *x, double *value);
 } gm_continuous_class;
 
 typedef struct gm_continuous {

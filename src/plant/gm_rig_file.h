@@ -63,6 +63,7 @@ typedef struct gm_rig_experiments {
     double creep;      /* rad/s */
     double time_limit; /* s */
     double tolerance;  /* of the solver in Model Exchange, relative */
+    int ramps;         /* 1: losses by ramps, 0: held until steady */
 } gm_rig_experiments;
 
 typedef struct gm_rig_file {

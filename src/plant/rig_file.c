@@ -108,8 +108,13 @@ static const gm_section parameter = {
     .label = offsetof(gm_rig_parameter, id)};
 #undef OWNER
 
+static const gm_choice losses_by[] = {{"settle", 0}, {"ramp", 1}, {NULL, 0}};
 #define OWNER gm_rig_experiments
 static const gm_field experiment_fields[] = {
+    {.key = "losses", .type = GM_FIELD_CHOICE, .choices = losses_by, AT(ramps),
+     DEFAULT("settle"),
+     .help = "settle: every point is held until nothing changes; ramp: speeds are ramped "
+             "through every point, which takes longer"},
     {NUMBER("step_s", 0, 10), AT(step), DEFAULT("0"),
      .help = "commands change and are seen no finer than this; 0: the model's own step, "
              "else 1 ms"},

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * Backward differences up to order two (elastic gearsets are lightly damped) with a
- * dense Jacobian from differences: a foreign model tells no pattern, and has few states.
+ * Backward differences up to order two (elastic gearsets are lightly damped), with the
+ * model's Jacobian or a dense one from differences.
  */
 #include "solve/gm_continuous_rig.h"
 
@@ -44,7 +44,8 @@ static int events(void *user, double t, const double *x, double *g)
     return calls(r)->events(r->model, t, x, g);
 }
 
-static int jacobian(void *user, double t, const double *x, double *value)
+/* A foreign model tells no pattern: all entries, column by column. */
+static int differences(void *user, double t, const double *x, double *value)
 {
     run *r = user;
     int flag = rates(r, t, x, r->rate);
@@ -60,6 +61,12 @@ static int jacobian(void *user, double t, const double *x, double *value)
             column[i] = (column[i] - r->rate[i]) / step;
     }
     return flag;
+}
+
+static int own(void *user, double t, const double *x, double *value)
+{
+    run *r = user;
+    return calls(r)->jacobian(r->model, t, x, value);
 }
 
 /* ---- life ---- */
@@ -89,10 +96,15 @@ static gm_status make_room(run *r, gm_error *error)
     r->moved = gm_calloc(n, sizeof *r->moved);
     r->absolute = gm_calloc(n, sizeof *r->absolute);
     r->column_start = gm_calloc(n + 1, sizeof *r->column_start);
-    r->row = gm_calloc(n * n, sizeof *r->row);
+    size_t entries = calls(r)->jacobian ? (size_t)calls(r)->entries(r->model) : n * n;
+    r->row = gm_calloc(entries, sizeof *r->row);
     if (!r->x || !r->nominal || !r->rate || !r->moved || !r->absolute ||
         !r->column_start || !r->row)
         return gm_fail(error, GM_ERR_MEMORY, "out of memory");
+    if (calls(r)->jacobian) {
+        calls(r)->pattern(r->model, r->column_start, r->row);
+        return GM_OK;
+    }
     for (int k = 0; k <= r->n; k++)
         r->column_start[k] = k * r->n;
     for (int k = 0; k < r->n * r->n; k++)
@@ -131,7 +143,7 @@ static gm_status make_solver(run *r, gm_error *error)
                                       .rates = rates,
                                       .column_start = r->column_start,
                                       .row = r->row,
-                                      .jacobian = jacobian,
+                                      .jacobian = calls(r)->jacobian ? own : differences,
                                       .n_events = r->n_events,
                                       .events = events};
     for (int k = 0; k < r->n; k++) {

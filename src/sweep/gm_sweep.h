@@ -30,6 +30,9 @@ typedef struct gm_sweep_options {
     int n_oil;
     const gm_plant *const *at_oil;      /* [n_oil] */
     const gm_plant *const *between_oil; /* [n_oil - 1]; NULL: linear in temperature */
+    /* How the plant was made, where that is not its own way: part of what tells one sweep
+       from another; NULL: nothing. At most 80 characters. */
+    const char *experiments;
 } gm_sweep_options;
 
 /** Every point is an operating point that is solved once. With axes by error the total

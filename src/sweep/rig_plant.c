@@ -88,6 +88,30 @@ static gm_status identify(rig_plant *p, gm_error *error)
     return status;
 }
 
+/* Ratios and inertias that are known need no measuring. */
+static gm_status take_known(rig_plant *p, gm_error *error)
+{
+    const gm_plant_info *info = &p->plant.info;
+    const gm_plant *known = p->settings.known;
+    gm_kinematics k;
+    for (int q = 0; q < info->n_paths; q++)
+        for (int g = 0; g < info->path[q].n_gears; g++) {
+            int gear[GM_MAX_INPUT_PATHS] = {0};
+            for (int other = 0; other < info->n_paths; other++)
+                if (info->path[other].always_engaged)
+                    gear[other] = info->path[other].gears[0].number;
+            gear[q] = info->path[q].gears[g].number;
+            gm_status status = known->is->kinematics(known->self, gear, &k, error);
+            if (status != GM_OK)
+                return status;
+            p->identity.ratio[q][g] = k.ratio[q];
+            p->identity.total[q][g].value = k.inertia_total;
+            p->identity.inertia[1 + q].value = k.inertia[q];
+            p->identity.inertia[0].value = k.inertia_output;
+        }
+    return GM_OK;
+}
+
 static int ascending(const void *a, const void *b)
 {
     const double *x = a, *y = b;
@@ -105,6 +129,8 @@ static void set_lines(rig_plant *p)
         qsort(p->limits.line[q], (size_t)p->limits.n_lines[q], sizeof(double), ascending);
     }
     p->limits.creep = p->settings.creep;
+    p->limits.ramps = p->settings.losses_by_ramps;
+    p->limits.ramp_time = p->settings.ramp_time;
 }
 
 /* ---- calls of the plant ---- */
@@ -271,15 +297,31 @@ static void fill_report(const rig_plant *p, gm_rig_report *report)
     *report = (gm_rig_report){.inertia_uncertainty = largest};
 }
 
-gm_status gm_rig_plant_create(const gm_rig *rig, const gm_plant_info *info,
-                              const gm_rig_settings *settings, gm_plant **plant,
-                              gm_rig_report *report, gm_error *error)
+static gm_status check(const gm_rig *rig, const gm_plant_info *info,
+                       const gm_rig_settings *settings, gm_error *error)
 {
+    for (int f = 0; f <= info->n_paths && settings->losses_by_ramps; f++)
+        if (rig->drive[f] == GM_RIG_SPEED_IN)
+            return gm_fail(
+                error, GM_ERR_ARGUMENT,
+                "losses cannot be measured by ramps: the model takes the speed "
+                "of the %s and not its torque; losses settle can",
+                f == 0 ? "output" : info->path[f - 1].name);
     for (int q = 0; q < info->n_paths; q++)
         if (info->path[q].n_gears > GM_RIG_MAX_GEARS)
             return gm_fail(error, GM_ERR_ARGUMENT,
                            "path '%s' has %d gears; at most %d are possible",
                            info->path[q].name, info->path[q].n_gears, GM_RIG_MAX_GEARS);
+    return GM_OK;
+}
+
+gm_status gm_rig_plant_create(const gm_rig *rig, const gm_plant_info *info,
+                              const gm_rig_settings *settings, gm_plant **plant,
+                              gm_rig_report *report, gm_error *error)
+{
+    gm_status checked = check(rig, info, settings, error);
+    if (checked != GM_OK)
+        return checked;
     rig_plant *p = gm_calloc(1, sizeof *p);
     if (!p)
         return gm_fail(error, GM_ERR_MEMORY, "out of memory");
@@ -287,7 +329,7 @@ gm_status gm_rig_plant_create(const gm_rig *rig, const gm_plant_info *info,
     p->rig = rig;
     p->settings = *settings;
     p->scales = (gm_rig_scales){.speed = info->speed_max, .torque = info->torque_max};
-    gm_status status = identify(p, error);
+    gm_status status = settings->known ? take_known(p, error) : identify(p, error);
     if (status != GM_OK) {
         gm_free(p);
         return status;

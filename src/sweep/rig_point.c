@@ -1,8 +1,12 @@
 /* SPDX-License-Identifier: BSD-2-Clause */
 #include "sweep/rig_point.h"
 
+#include "sweep/rig_ramp.h"
+
 #include <math.h>
 
+/* A limit is extrapolated from once, twice and three times the creep speed. */
+enum { CREEPS = 3 };
 /* A path counts as on a line this close to it, relative to the speed there: the sweep
    puts its points 1e-11 away. */
 static const double on_line = 1e-9;
@@ -53,7 +57,7 @@ static int move(const gm_rig_limits *limits, int n_paths, double away,
 
 /* From one, two and three times the distance to none, by a parabola; how far a straight
    line would be away tells how much it can be trusted. */
-static void extrapolate(const gm_rig_found at[3], int n_paths, gm_rig_found *found)
+static void extrapolate(const gm_rig_found at[CREEPS], int n_paths, gm_rig_found *found)
 {
     for (int f = 0; f <= n_paths; f++) {
         const double torque[] = {at[0].torque[f], at[1].torque[f], at[2].torque[f]};
@@ -66,17 +70,36 @@ static void extrapolate(const gm_rig_found at[3], int n_paths, gm_rig_found *fou
     }
 }
 
+/* The flange that is ramped; -1: nothing turns faster than it creeps. */
+static int ramped_flange(const gm_steady_point *at, int n_paths, double creep)
+{
+    for (int p = 0; p < n_paths; p++)
+        if (at->gear[p] == 0 && fabs(at->speed[1 + p]) > CREEPS * creep)
+            return 1 + p;
+    return fabs(at->speed[0]) > CREEPS * creep ? 0 : -1;
+}
+
+static gm_status measure_at(gm_rig_run *run, const gm_rig_limits *limits,
+                            const gm_rig_target *target, gm_rig_found *found,
+                            gm_error *error)
+{
+    int flange = ramped_flange(&target->point, gm_rig_run_paths(run), limits->creep);
+    if (!limits->ramps || flange < 0)
+        return gm_rig_run_hold(run, target, found, error);
+    return gm_rig_ramp_torque(run, target, flange, limits->ramp_time, found, error);
+}
+
 gm_status gm_rig_point_measure(gm_rig_run *run, const gm_rig_limits *limits,
                                const gm_rig_target *target, gm_rig_found *found,
                                gm_error *error)
 {
-    gm_rig_found at[3];
+    gm_rig_found at[CREEPS];
     int n_paths = gm_rig_run_paths(run);
-    for (int k = 3; k >= 1; k--) {
+    for (int k = CREEPS; k >= 1; k--) {
         gm_rig_target away = *target;
         if (!move(limits, n_paths, k * limits->creep, &away.point))
-            return gm_rig_run_hold(run, target, found, error);
-        gm_status status = gm_rig_run_hold(run, &away, &at[k - 1], error);
+            return measure_at(run, limits, target, found, error);
+        gm_status status = measure_at(run, limits, &away, &at[k - 1], error);
         if (status != GM_OK)
             return status;
     }

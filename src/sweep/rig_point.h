@@ -5,6 +5,10 @@
  * lines), points at once, twice and three times the creep speed c away are measured and
  * extrapolated: f(0+) = 3 f(c) - 3 f(2c) + f(3c). The creep speed lies beyond the
  * band over which models round Coulomb friction.
+ *
+ * By ramps, the torque of the flange that the point is about (a path that turns in
+ * neutral, else the output) is that in passing; the others are held. At a creeping speed
+ * all are held: a ramp would cross the band.
  */
 #ifndef RIG_POINT_H
 #define RIG_POINT_H
@@ -14,7 +18,9 @@
 #define GM_RIG_MAX_LINES 32
 
 typedef struct gm_rig_limits {
-    double creep;                    /* rad/s */
+    double creep;     /* rad/s */
+    int ramps;        /* 1: losses by ramps through each speed, 0: held until steady */
+    double ramp_time; /* s, of one ramp; 0: automatic */
     int n_lines[GM_MAX_INPUT_PATHS]; /* drag lines of paths in neutral */
     double line[GM_MAX_INPUT_PATHS][GM_RIG_MAX_LINES];
 } gm_rig_limits;

@@ -107,30 +107,48 @@ static gm_status pass(const ramp *p, double *torque, double *acceleration,
     for (int i = 0; i < 20; i++)
         s -= (w[0] + s * (w[1] + s * w[2]) - p->middle) / (w[1] + 2.0 * s * w[2]);
     if (!(fabs(s) <= 1.0))
-        return gm_fail(
-            error, GM_ERR_SOLVE,
-            "gears (%d, %d): a ramp of the speed at flange %d does not pass %g "
-            "rad/s",
-            p->still.gear[0], p->still.gear[1], p->flange, p->middle);
+        return gm_fail(error, GM_ERR_SOLVE,
+                       "gears (%d, %d): a ramp of %g s at flange %d does not pass %g "
+                       "rad/s: the loss "
+                       "changes faster; a shorter ramp time does",
+                       p->still.gear[0], p->still.gear[1], p->time, p->flange, p->middle);
     *torque = t[0] + s * (t[1] + s * t[2]);
     *acceleration = (w[1] + 2.0 * s * w[2]) / (0.5 * (LAST - FIRST) * p->time / SAMPLES);
     return GM_OK;
 }
 
-static gm_status run_ramps(ramp *p, double *inertia, gm_error *error)
+/* Where two ramps pass the same speed. */
+typedef struct passing {
+    double torque[2], acceleration[2]; /* down, up */
+} passing;
+
+static gm_status run_ramps(ramp *p, passing *at, gm_error *error)
 {
     static const double sign[] = {1.0, -1.0, 1.0, -1.0};
     static const int part[] = {2, 1, 1, 2};
-    double torque[4], acceleration[4];
     gm_status status = GM_OK;
     for (int i = 0; i < 4 && status == GM_OK; i++) {
         status = leg(p, sign[i], SAMPLES / part[i], error);
         if (status == GM_OK && part[i] == 1)
-            status = pass(p, &torque[i], &acceleration[i], error);
+            status = pass(p, &at->torque[i - 1], &at->acceleration[i - 1], error);
     }
-    if (status == GM_OK)
-        *inertia = (torque[2] - torque[1]) / (acceleration[2] - acceleration[1]);
     return status;
+}
+
+static double inertia_of(const ramp *p, const passing *at)
+{
+    (void)p;
+    return (at->torque[1] - at->torque[0]) / (at->acceleration[1] - at->acceleration[0]);
+}
+
+/* The sum of torques at constant speed, less those that the others give. */
+static double torque_of(const ramp *p, const passing *at)
+{
+    double sum = at->torque[0] - at->acceleration[0] * inertia_of(p, at);
+    for (int f = 0; f <= p->r->rig->n_paths; f++)
+        if (f != p->flange)
+            sum -= p->along[f] * p->still.value[f];
+    return sum;
 }
 
 /* Which torque turns the flange by its range in the time: from the answer to the pulse,
@@ -179,30 +197,63 @@ static void choose(ramp *p, double time)
     p->slope = fmin(most, inertia * range / p->time);
 }
 
+/* Hold, ramp, and again at half the rate: two values of what a pair of ramps tells. */
+static gm_status ramp_twice(ramp *p, double time,
+                            double (*told)(const ramp *p, const passing *at),
+                            gm_rig_found *found, double value[2], gm_error *error)
+{
+    gm_rig_run *run = p->r;
+    gm_status status = GM_OK;
+    for (int i = 0; i < 2 && status == GM_OK; i++) {
+        passing at;
+        status = gm_rig_run_hold(run, p->target, found, error);
+        if (status != GM_OK)
+            return status;
+        p->still = run->command;
+        for (int k = 0; k < run->n_holds; k++)
+            p->still.value[run->hold[k].flange] = run->hold[k].u0;
+        p->middle = found->speed[p->flange];
+        if (i == 0)
+            choose(p, time);
+        status = run_ramps(p, &at, error);
+        if (status == GM_OK)
+            value[i] = told(p, &at);
+        p->time *= 2.0;
+        p->slope *= 0.5;
+    }
+    return status;
+}
+
 gm_status gm_rig_ramp_inertia(gm_rig_run *run, const gm_rig_target *target, int f,
                               double time, gm_rig_inertia *inertia, gm_error *error)
 {
     ramp p = {.r = run, .target = target, .flange = f};
     gm_rig_found found;
     double value[2] = {0.0, 0.0};
-    gm_status status = GM_OK;
-    for (int i = 0; i < 2 && status == GM_OK; i++) {
-        status = gm_rig_run_hold(run, target, &found, error);
-        if (status != GM_OK)
-            return status;
-        p.still = run->command;
-        for (int k = 0; k < run->n_holds; k++)
-            p.still.value[run->hold[k].flange] = run->hold[k].u0;
-        p.middle = found.speed[f];
-        if (i == 0)
-            choose(&p, time);
-        status = run_ramps(&p, &value[i], error);
-        p.time *= 2.0;
-        p.slope *= 0.5;
-    }
+    gm_status status = ramp_twice(&p, time, inertia_of, &found, value, error);
     if (status != GM_OK)
         return status;
     inertia->value = value[1];
     inertia->uncertainty = fabs(value[1] - value[0]);
+    return GM_OK;
+}
+
+gm_status gm_rig_ramp_torque(gm_rig_run *run, const gm_rig_target *target, int f,
+                             double time, gm_rig_found *found, gm_error *error)
+{
+    ramp p = {.r = run, .target = target, .flange = f};
+    gm_rig_found held;
+    double value[2] = {0.0, 0.0};
+    if (run->rig->drive[f] == GM_RIG_SPEED_IN)
+        return gm_fail(error, GM_ERR_ARGUMENT,
+                       "losses cannot be measured by ramps at flange %d: the model takes "
+                       "its speed; use settle",
+                       f);
+    gm_status status = ramp_twice(&p, time, torque_of, &held, value, error);
+    if (status != GM_OK)
+        return status;
+    held.torque[f] = 2.0 * value[1] - value[0];
+    held.change[f] = fabs(value[1] - value[0]);
+    *found = held;
     return GM_OK;
 }

@@ -29,4 +29,15 @@ GM_NODISCARD gm_status gm_rig_ramp_inertia(gm_rig_run *run, const gm_rig_target 
                                            int f, double time, gm_rig_inertia *inertia,
                                            gm_error *error);
 
+/** Torque at flange f when its speed passes that of the target, free of the inertia's:
+ *  from ramps up and down through it, where the acceleration between them is zero. The
+ *  other flanges as in gm_rig_run_hold, with which it begins; f takes torque and turns.
+ *  From a rate and its half to none: where little torque is transmitted, its magnitude
+ *  and with it the loss follows the acceleration. found->change[f]: difference between
+ *  both rates. GM_ERR_ARGUMENT when f takes speed;
+ *  errors of gm_rig_run_hold. */
+GM_NODISCARD gm_status gm_rig_ramp_torque(gm_rig_run *run, const gm_rig_target *target,
+                                          int f, double time, gm_rig_found *found,
+                                          gm_error *error);
+
 #endif

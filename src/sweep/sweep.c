@@ -154,6 +154,10 @@ static void describe(const gm_plant *plant, const gm_sweep_options *options, gm_
         snprintf(map->options + used, sizeof map->options - used,
                  " tolerance=%.17g,%.17gN.m interpolation=%s", options->tolerance_share,
                  options->tolerance_torque, options->monotone ? "monotone" : "linear");
+    used = strlen(map->options);
+    if (options->experiments)
+        snprintf(map->options + used, sizeof map->options - used, " %s",
+                 options->experiments);
 }
 
 /* ---- threads ---- */
