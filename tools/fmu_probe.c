@@ -34,6 +34,21 @@ static gm_status find(const gm_fmu *fmu, const char *path, const char *variable,
     return gm_fmu_find(fmu, name, reference, error);
 }
 
+/* Start speed of a flange, which one whose speed is an input does not have. */
+static gm_status find_start(const gm_fmu *fmu, const char *flange, unsigned *reference,
+                            gm_error *error)
+{
+    char speed[NAME], start[NAME];
+    (void)snprintf(speed, sizeof speed, "%s.w", flange);
+    (void)snprintf(start, sizeof start, "%s.w_start", flange);
+    if (gm_fmu_has(fmu, speed) && !gm_fmu_has(fmu, start))
+        return gm_fail(error, GM_ERR_FORMAT,
+                       "%s: the speed of %s is an input; FMUs are verified with torques "
+                       "in and speeds out at every flange",
+                       gm_fmu_path(fmu), flange);
+    return gm_fmu_find(fmu, start, reference, error);
+}
+
 static gm_status find_path(gm_fmu_probe *probe, int p, const char *path, gm_error *error)
 {
     path_variables *v = &probe->path[p];
@@ -44,7 +59,7 @@ static gm_status find_path(gm_fmu_probe *probe, int p, const char *path, gm_erro
     if (status == GM_OK)
         status = find(probe->fmu, path, "gear_refused", &v->gear_refused, error);
     if (status == GM_OK)
-        status = find(probe->fmu, path, "w_start", &v->w_start, error);
+        status = find_start(probe->fmu, path, &v->w_start, error);
     if (status == GM_OK)
         status = find(probe->fmu, path, "loss_torque", &v->loss_torque, error);
     return status;
@@ -55,7 +70,7 @@ static gm_status find_output(gm_fmu_probe *probe, gm_error *error)
     const gm_fmu *fmu = probe->fmu;
     gm_status status = find(fmu, "output", "tau", &probe->output_tau, error);
     if (status == GM_OK)
-        status = find(fmu, "output", "w_start", &probe->output_w_start, error);
+        status = find_start(fmu, "output", &probe->output_w_start, error);
     if (status == GM_OK)
         status = find(fmu, "output", "loss_torque", &probe->output_loss_torque, error);
     if (status == GM_OK)

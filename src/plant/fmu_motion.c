@@ -49,8 +49,10 @@ static gm_status find_flange(gm_fmu_motion *m, int f, gm_error *error)
         if (strcmp(m->fmu->description.states[i].name, speed) == 0)
             m->speed[f] = i;
     if (status == GM_OK && m->speed[f] < 0)
-        return gm_fail(error, GM_ERR_FORMAT, "%s: the FMU has no state %s", m->fmu->path,
-                       speed);
+        return gm_fail(error, GM_ERR_FORMAT,
+                       "%s: the FMU has no state %s; it is to have torques in and speeds "
+                       "out at every flange",
+                       m->fmu->path, speed);
     return status;
 }
 

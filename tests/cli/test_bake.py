@@ -31,6 +31,8 @@ def test_speeds_in(example_map, tmp_path):
     assert sentence == ('there is no flange "front" whose speed could be an input '
                         "(only odd, even, output)")
     assert len(list(tmp_path.iterdir())) == 3
+    for how in (["--steady", "--points", "10"], ["--cycle", "ece15"]):
+        assert "speeds out at every flange" in fails("verify", EXAMPLE, tmp_path / "1.fmu", *how)
 
 
 def test_json_of_a_bake(example_map, tmp_path):
