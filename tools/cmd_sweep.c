@@ -123,7 +123,9 @@ const gm_command gm_command_sweep = {
         "leaves MAP.part; the same command resumes it. The map does not depend on "
         "the number of threads nor on interruptions. With --tolerance the nodes are "
         "chosen by the error at points held out; it is then measured at other points, "
-        "printed and kept in the map, and tables that could not reach it are named.",
+        "printed and kept in the map, and tables that could not reach it are named. With "
+        "several oil temperatures more of them are added until losses between any two "
+        "are inside too.",
     .options = options,
     .n_options = sizeof options / sizeof options[0],
     .size = sizeof(arguments),

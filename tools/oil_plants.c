@@ -91,3 +91,28 @@ void gm_oil_plants_close(gm_oil_plants *plants)
     gm_free(plants->plant);
     memset(plants, 0, sizeof *plants);
 }
+
+gm_status gm_oil_plant_at(void *self, double temperature, const gm_plant **plant,
+                          gm_error *error)
+{
+    gm_oil_plant_list *list = self;
+    gm_oil_plants *grown =
+        gm_resize(list->plants, (size_t)list->n + 1, sizeof *list->plants);
+    if (!grown)
+        return gm_fail(error, GM_ERR_MEMORY, "no memory for the oil temperatures");
+    list->plants = grown;
+    gm_status status =
+        gm_oil_plants_open(list->file, 1, &temperature, &grown[list->n], error);
+    if (status == GM_OK)
+        *plant = grown[list->n++].plant[0];
+    return status;
+}
+
+void gm_oil_plant_list_clear(gm_oil_plant_list *list)
+{
+    for (int i = 0; i < list->n; i++)
+        gm_oil_plants_close(&list->plants[i]);
+    gm_free(list->plants);
+    list->plants = NULL;
+    list->n = 0;
+}

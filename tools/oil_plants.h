@@ -24,6 +24,18 @@ GM_NODISCARD gm_status gm_oil_plants_open(const gm_gearset_file *file, int n,
 GM_NODISCARD gm_status gm_oil_plants_hold_out(const gm_gearset_file *file, int n,
                                               const double *axis, int seed,
                                               gm_oil_plants *plants, gm_error *error);
+/** Plants one by one, at temperatures that are not known beforehand. */
+typedef struct gm_oil_plant_list {
+    const gm_gearset_file *file;
+    int n;
+    gm_oil_plants *plants; /* [n], each of one */
+} gm_oil_plant_list;
+
+/** For gm_oil_source.at; self is a gm_oil_plant_list that begins with file alone. */
+gm_status gm_oil_plant_at(void *self, double temperature, const gm_plant **plant,
+                          gm_error *error);
+void gm_oil_plant_list_clear(gm_oil_plant_list *list);
+
 void gm_oil_plants_close(gm_oil_plants *plants);
 
 #endif

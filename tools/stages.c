@@ -8,6 +8,7 @@
 #include "fmu_probe.h"
 #include "keep_description.h"
 #include "oil_plants.h"
+#include "sweep/gm_oil.h"
 #include "options.h"
 #include "progress.h"
 
@@ -130,18 +131,53 @@ double gm_stage_temperature(const gm_sweep_settings *settings)
 }
 
 /* The temperatures of the axis, and the middles between them. */
-static gm_status open_oil(const gm_gearset_file *file, const gm_option_list *oil,
+static gm_status open_oil(const gm_gearset_file *file, int n, const double *oil,
                           gm_oil_plants *plants, gm_error *error)
 {
-    double temperature[2 * GM_OPTION_MOST];
-    const int n = oil->n;
+    double temperature[2 * GM_MAP_MAX_OIL];
+    for (int k = 0; k < n; k++)
+        temperature[k] = oil[k];
+    for (int k = 0; k + 1 < n; k++)
+        temperature[n + k] = 0.5 * (oil[k] + oil[k + 1]);
+    return gm_oil_plants_open(file, 2 * n - 1, temperature, plants, error);
+}
+
+/* With a tolerance temperatures are added; not of simulated models, which take their
+   time for every one. */
+static gm_status choose_oil(const gm_gearset_file *file, const gm_sweep_options *options,
+                            int *n, double *oil, gm_error *error)
+{
+    const gm_plant_info *info = &file->plant->info;
+    gm_oil_plant_list list = {.file = file};
+    const gm_oil_source source = {gm_oil_plant_at, &list};
+    if (file->rig || !(options->tolerance_share > 0.0 || options->tolerance_torque > 0.0))
+        return GM_OK;
+    gm_status status = gm_oil_choose(
+        &source, options->speed_max > 0.0 ? options->speed_max : info->speed_max,
+        options->torque_max > 0.0 ? options->torque_max : info->torque_max,
+        options->tolerance_share, options->tolerance_torque, n, oil, error);
+    gm_oil_plant_list_clear(&list);
+    return status;
+}
+
+static gm_status add_oil(const gm_gearset_file *file, const gm_option_list *oil,
+                         gm_sweep_options *options, gm_oil_plants *plants,
+                         gm_error *error)
+{
+    double temperature[GM_MAP_MAX_OIL];
+    int n = oil->n;
     if (n < 2)
         return GM_OK;
-    for (int k = 0; k < n; k++)
-        temperature[k] = oil->value[k];
-    for (int k = 0; k + 1 < n; k++)
-        temperature[n + k] = 0.5 * (oil->value[k] + oil->value[k + 1]);
-    return gm_oil_plants_open(file, 2 * n - 1, temperature, plants, error);
+    memcpy(temperature, oil->value, (size_t)n * sizeof *temperature);
+    gm_status status = choose_oil(file, options, &n, temperature, error);
+    if (status == GM_OK)
+        status = open_oil(file, n, temperature, plants, error);
+    if (status != GM_OK)
+        return status;
+    options->n_oil = n;
+    options->at_oil = plants->plant;
+    options->between_oil = plants->plant + n;
+    return GM_OK;
 }
 
 static gm_status run_sweep(const gm_gearset_file *file, gm_sweep_options *options,
@@ -151,12 +187,7 @@ static gm_status run_sweep(const gm_gearset_file *file, gm_sweep_options *option
     gm_oil_plants plants = {0};
     gm_progress progress;
     gm_progress_begin(&progress, "sweep", file->plant->info.name);
-    gm_status status = open_oil(file, oil, &plants, error);
-    if (plants.n > 0) {
-        options->n_oil = oil->n;
-        options->at_oil = plants.plant;
-        options->between_oil = plants.plant + oil->n;
-    }
+    gm_status status = add_oil(file, oil, options, &plants, error);
     if (status == GM_OK)
         status = gm_sweep_run(file->plant, options, path, gm_progress_report, &progress,
                               &stage->map, &stage->summary, error);

@@ -7,6 +7,7 @@
 #include "files.h"
 
 #define RPM_PER_RAD_S 9.549296585513721 /* 60 / (2 pi) */
+#define KELVIN 273.15
 
 static const char *direction_name(int direction)
 {
@@ -42,6 +43,10 @@ void gm_sweep_stage_json(const gm_sweep_stage *stage, gm_json *json)
     gm_json_number(json, "largest_ratio_deviation",
                    stage->summary.largest_ratio_deviation);
     gm_json_integer(json, "size_bytes", map_size(stage));
+    gm_json_array(json, "oil_temperatures_degC");
+    for (int k = 0; k < stage->map->n_oil; k++)
+        gm_json_number(json, NULL, stage->map->oil[k] - KELVIN);
+    gm_json_end(json);
     gm_json_number(json, "elapsed_s", stage->summary.elapsed);
     gm_json_text(json, "losses", gm_losses_name(stage->how.losses));
     gm_json_text(json, "inertia", gm_inertia_name(stage->how.inertia));
@@ -77,8 +82,6 @@ static void case_gears(const gm_verify_case *c, gm_json *json)
         gm_json_integer(json, NULL, c->gear[p]);
     gm_json_end(json);
 }
-
-#define KELVIN 273.15
 
 /* axis: 1 with an oil axis */
 static void case_json(const gm_verify_case *c, int axis, gm_json *json)
@@ -194,6 +197,12 @@ void gm_sweep_stage_print(const gm_sweep_stage *stage, FILE *out)
     if (stage->path)
         fprintf(out, "                    %s, %ld kB, content hash %.16s\n", stage->path,
                 map_size(stage) / 1024, stage->map->content_hash);
+    if (stage->map->n_oil > 0)
+        fprintf(out, "                    oil at");
+    for (int k = 0; k < stage->map->n_oil; k++)
+        fprintf(out, "%s %.4g", k > 0 ? "," : "", stage->map->oil[k] - KELVIN);
+    if (stage->map->n_oil > 0)
+        fprintf(out, " °C\n");
 }
 
 void gm_bake_stage_print(const gm_bake_stage *stage, const char *fmu, FILE *out)

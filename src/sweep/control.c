@@ -2,6 +2,7 @@
 #include "sweep/control.h"
 
 #include "base/alloc.h"
+#include "sweep/gm_oil.h"
 
 #include <math.h>
 #include <string.h>
@@ -38,8 +39,10 @@ gm_status gm_control_create(gm_sweep_plan *plan, const gm_sweep_options *options
     gm_control *made = gm_calloc(1, sizeof *made);
     if (made) {
         made->plan = plan;
-        made->tolerance =
-            (gm_control_tolerance){options->tolerance_share, options->tolerance_torque};
+        /* Errors between oil temperatures come on top. */
+        const double part = options->n_oil > 0 ? 1.0 - GM_OIL_PART : 1.0;
+        made->tolerance = (gm_control_tolerance){part * options->tolerance_share,
+                                                 part * options->tolerance_torque};
         made->units = gm_calloc((size_t)plan->n_units, sizeof *made->units);
     }
     if (made && made->units) {

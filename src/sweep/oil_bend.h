@@ -1,11 +1,6 @@
 /* SPDX-License-Identifier: BSD-2-Clause
  *
- * How losses go from one oil temperature of the map to the next. Viscosity falls steeply
- * where oil is cold, and with it all drags; mesh friction hardly changes. A line between
- * two temperatures 30 K apart is off by an eighth of a loss there. So the share of the
- * next slice is bent (gm_oil_axis in core/gm_reduced.h) by one number for each interval,
- * such that it is right in the mean at a temperature between, in the sense of least
- * squares over all gears at rest, idle and under load.
+ * The bends of a map's oil axis; see oil_profile.h.
  */
 #ifndef OIL_BEND_H
 #define OIL_BEND_H

@@ -170,3 +170,18 @@ def test_beyond_the_axis_it_clamps_and_says_so(reduced, folder):
         losses[degrees] = component.get("loss_power")
         assert component.get("out_of_map") == (degrees not in (90.0, -10.0))
     assert losses[91.0] == losses[150.0] == losses[90.0] < losses[-10.0] == losses[-11.0]
+
+
+def test_a_tolerance_adds_temperatures(tmp_path):
+    small = ROOT / "tests" / "cli" / "two_speed.yaml"
+    results = [result_of("sweep", small, "-o", tmp_path / f"{k}.map", "--tolerance", tolerance,
+                         "--oil-temperature", "0degC,80degC") for k, tolerance in
+               enumerate(["20%", "2%"])]
+    few, many = [r["oil_temperatures_degC"] for r in results]
+    assert 2 <= len(few) < len(many)
+    for axis in (few, many):
+        assert axis[0] == pytest.approx(0) and axis[-1] == pytest.approx(80)
+        assert all(a < b for a, b in zip(axis, axis[1:]))
+    between = results[1]["verify"]["by_oil_temperature"]
+    assert len(between) == len(many) - 1
+    assert results[1]["verify"]["max_relative"] <= 0.02
