@@ -185,3 +185,15 @@ def test_a_tolerance_adds_temperatures(tmp_path):
     between = results[1]["verify"]["by_oil_temperature"]
     assert len(between) == len(many) - 1
     assert results[1]["verify"]["max_relative"] <= 0.02
+
+
+def test_a_foreign_model_without_a_temperature_is_refused(tmp_path):
+    small = ROOT / "tests" / "cli" / "two_speed.yaml"
+    model, rig = tmp_path / "model.fmu", tmp_path / "rig.yaml"
+    succeeds("bake", "--detailed", small, "-o", model)
+    succeeds("rig", model, "-o", rig)
+    lines = [x for x in rig.read_text().splitlines() if not x.startswith("oil_temperature:")]
+    rig.write_text("\n".join(lines) + "\n")
+    sentence = fails("sweep", rig, "-o", tmp_path / "m.map", "--oil-temperature", "20,80")
+    assert "names no variable that takes the oil temperature" in sentence
+    assert {p.name for p in tmp_path.iterdir()} == {"model.fmu", "rig.yaml"}

@@ -4,9 +4,11 @@
  * what is read between them is compared with gearsets whose losses follow known laws of
  * the temperature.
  */
+#include "sweep/gm_oil.h"
 #include "sweep/gm_sweep.h"
 #include "sweep/gm_verify.h"
 
+#include "base/alloc.h"
 #include "map/gm_map_file.h"
 #include "synthetic.h"
 
@@ -297,9 +299,86 @@ static void temperatures_that_are_no_axis_are_refused(void **state)
     }
 }
 
+/* ---- temperatures by error ---- */
+
+static synthetic sources[128];
+static int n_sources;
+static law *chosen_law;
+
+static gm_status source_at(void *self, double temperature, const gm_plant **plant,
+                           gm_error *e)
+{
+    (void)self;
+    if (n_sources == 128)
+        return gm_fail(e, GM_ERR_TOOL, "asked once too often");
+    make_plant(&sources[n_sources], chosen_law, temperature);
+    *plant = &sources[n_sources++].plant;
+    return GM_OK;
+}
+
+static int choose(law *of, double share, double *at)
+{
+    const gm_oil_source oil = {source_at, NULL};
+    int n = 2;
+    at[0] = 263.15;
+    at[1] = 363.15;
+    chosen_law = of;
+    n_sources = 0;
+    assert_int_equal(gm_oil_choose(&oil, SYNTHETIC_SPEED_MAX, SYNTHETIC_TORQUE_MAX, share,
+                                   0.0, &n, at, &error),
+                     GM_OK);
+    return n;
+}
+
+static double waves(double temperature)
+{
+    return 2.0 + sin(temperature / 7.0);
+}
+
+static void temperatures_are_added_where_losses_bend(void **state)
+{
+    double at[GM_MAP_MAX_OIL];
+    (void)state;
+    assert_int_equal(choose(straight, 0.001, at), 2);
+    assert_int_equal(choose(constant, 0.001, at), 2);
+    int coarse = choose(waves, 0.2, at), n = choose(waves, 0.05, at);
+    assert_true(2 < coarse && coarse < n && n < GM_MAP_MAX_OIL);
+    assert_true(at[0] == 263.15 && at[n - 1] == 363.15);
+    for (int k = 1; k < n; k++)
+        assert_true(at[k] > at[k - 1]);
+    /* never more than a map may have, whatever is asked for */
+    assert_true(choose(falling, 1e-9, at) <= GM_MAP_MAX_OIL);
+}
+
+static void failures_while_choosing_leave_nothing_behind(void **state)
+{
+    double at[GM_MAP_MAX_OIL] = {263.15, 363.15};
+    const gm_oil_source oil = {source_at, NULL};
+    gm_status status = GM_ERR_MEMORY;
+    int n = 2;
+    (void)state;
+    chosen_law = straight;
+    for (long k = 1; status == GM_ERR_MEMORY; k++) {
+        assert_true(k < 10000);
+        n_sources = 0;
+        gm_alloc_fail_after(k);
+        status = gm_oil_choose(&oil, SYNTHETIC_SPEED_MAX, SYNTHETIC_TORQUE_MAX, 0.01, 0.0,
+                               &n, at, &error);
+        gm_alloc_fail_after(0);
+        assert_int_equal(n, 2);
+    }
+    assert_int_equal(status, GM_OK);
+    n_sources = 128;
+    assert_int_equal(gm_oil_choose(&oil, SYNTHETIC_SPEED_MAX, SYNTHETIC_TORQUE_MAX, 0.01,
+                                   0.0, &n, at, &error),
+                     GM_ERR_TOOL);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(temperatures_are_added_where_losses_bend),
+        cmocka_unit_test(failures_while_choosing_leave_nothing_behind),
         cmocka_unit_test(a_slice_is_what_a_sweep_at_its_temperature_finds),
         cmocka_unit_test(losses_linear_in_temperature_are_exact_everywhere),
         cmocka_unit_test(the_bend_follows_losses_that_fall_steeply),
