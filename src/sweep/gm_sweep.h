@@ -73,7 +73,7 @@ typedef struct gm_sweep_summary {
 
 /** A point that failed, and why. */
 typedef struct gm_skipped_point {
-    char words[320];
+    char words[GM_ERROR_MESSAGE_SIZE];
 } gm_skipped_point;
 
 /** Free what a summary holds. */
