@@ -32,17 +32,11 @@ typedef struct place {
  * patch serves both. */
 static place place_of(int p, gm_real sign_n, gm_real sign_o, const gm_point *at)
 {
-    const gm_real ahead = sign_n < 0 ? -1 : 1, turn = sign_o < 0 ? -1 : 1;
-    const gm_real x = gm_not_below_zero(sign_n * at->m[p]);
-    const gm_real y = gm_not_below_zero(sign_o * at->m[GM_OUT]);
-    const place q = {gm_direction(sign_n),
-                     gm_direction(sign_o),
-                     x,
-                     y,
-                     ahead * x,
-                     turn * y,
-                     ahead,
-                     turn};
+    const int i = gm_direction(sign_n), j = gm_direction(sign_o);
+    const gm_real ahead = (gm_real)(1 - 2 * i), turn = (gm_real)(1 - 2 * j);
+    const gm_real x = gm_not_below_zero(ahead * at->m[p]);
+    const gm_real y = gm_not_below_zero(turn * at->m[GM_OUT]);
+    const place q = {i, j, x, y, ahead * x, turn * y, ahead, turn};
     return q;
 }
 
