@@ -106,8 +106,9 @@ static int run(const void *given)
     gm_status status = gm_reduce(&settings, &r, &error);
     if (status == GM_OK)
         status = gm_command_print(&form, a->json, &r, &error);
-    int skipped = r.sweep.summary.n_skipped;
+    int skipped = r.sweep.summary.n_skipped + r.verify.result.n_skipped;
     gm_stage_warn_skips(&r.sweep);
+    gm_stage_warn_left_out(&r.verify);
     gm_reduction_clear(&r);
     int code = gm_command_end(status, &error);
     return code == GM_EXIT_DONE && skipped > 0 ? GM_EXIT_SKIPPED : code;

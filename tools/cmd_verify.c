@@ -173,7 +173,8 @@ static gm_status compare(const arguments *a, gm_fmu *fmu, const gm_gearset_file 
     return status;
 }
 
-static gm_status verify_fmu(const arguments *a, gm_fmu *fmu, gm_error *error)
+static gm_status verify_fmu(const arguments *a, gm_fmu *fmu, int *skipped,
+                            gm_error *error)
 {
     const gm_fmu_origin origin = gm_fmu_read_origin(fmu);
     gm_gearset_file file;
@@ -191,13 +192,15 @@ static gm_status verify_fmu(const arguments *a, gm_fmu *fmu, gm_error *error)
         note_long_steps(a, &c.cycle);
         status = gm_command_print(&form, a->json, &c, error);
     }
+    gm_stage_warn_left_out(&c.steady);
+    *skipped = c.steady.result.n_skipped;
     gm_stage_cycle_clear(&c.cycle);
     gm_stage_verify_clear(&c.steady);
     gm_gearset_file_close(&file);
     return status;
 }
 
-static gm_status verify(const arguments *a, gm_error *error)
+static gm_status verify(const arguments *a, int *skipped, gm_error *error)
 {
     gm_fmu *fmu = NULL;
     gm_status status = GM_OK;
@@ -206,7 +209,7 @@ static gm_status verify(const arguments *a, gm_error *error)
     if (status == GM_OK)
         status = gm_fmu_open(a->fmu, &fmu, error);
     if (status == GM_OK)
-        status = verify_fmu(a, fmu, error);
+        status = verify_fmu(a, fmu, skipped, error);
     gm_fmu_close(fmu);
     return status;
 }
@@ -238,7 +241,9 @@ static int run(const void *given)
         fprintf(stderr, "gearmap: %s\n", problem);
         return GM_EXIT_USAGE;
     }
-    return gm_command_end(verify(given, &error), &error);
+    int skipped = 0;
+    int code = gm_command_end(verify(given, &skipped, &error), &error);
+    return code == GM_EXIT_DONE && skipped > 0 ? GM_EXIT_SKIPPED : code;
 }
 
 const gm_command gm_command_verify = {
@@ -246,7 +251,8 @@ const gm_command gm_command_verify = {
     .summary = "compare a component with the detailed model it was made from",
     .details =
         "Errors are relative to the largest loss of each gear and direction. They do not "
-        "change the exit code, however large: 1 means that there was nothing to compare.",
+        "change the exit code, however large: 1 means that there was nothing to compare, "
+        "3 that a foreign model failed at some points, which are left out.",
     .options = options,
     .n_options = sizeof options / sizeof options[0],
     .size = sizeof(arguments),

@@ -103,6 +103,8 @@ GM_NODISCARD gm_status gm_stage_measure(const gm_gearset_file *file,
 
 /** Say on the standard error at which points a simulated model failed, and why. */
 void gm_stage_warn_skips(const gm_sweep_stage *stage);
+/** The same of a verification: how many points were left out, and the first of them. */
+void gm_stage_warn_left_out(const gm_verify_stage *stage);
 
 /** Say on the standard error which tables missed the tolerance of the sweep and where,
  *  and which kinds of points lie outside of it as measured. */

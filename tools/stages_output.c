@@ -157,6 +157,7 @@ void gm_verify_stage_json(const gm_verify_stage *stage, gm_json *json)
     const gm_verify_result *r = &stage->result;
     gm_json_integer(json, "points", r->points);
     gm_json_integer(json, "seed", (long long)r->seed);
+    gm_json_integer(json, "skipped", r->n_skipped);
     group_json(stage, GM_VERIFY_SINGLE, json);
     gm_json_object(json, "groups");
     for (int group = GM_VERIFY_SINGLE + 1; group < GM_VERIFY_GROUPS; group++) {

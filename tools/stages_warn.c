@@ -70,6 +70,16 @@ static const gm_verify_case *outside(const gm_sweep_stage *sweep,
     return worst;
 }
 
+void gm_stage_warn_left_out(const gm_verify_stage *stage)
+{
+    const gm_verify_result *r = &stage->result;
+    if (r->n_skipped > 0)
+        fprintf(stderr,
+                "gearmap: warning: the model failed at %d points of the verification, "
+                "which are left out; the first: %s\n",
+                r->n_skipped, r->skipped);
+}
+
 void gm_stage_warn_skips(const gm_sweep_stage *stage)
 {
     const gm_sweep_summary *s = &stage->summary;

@@ -75,6 +75,8 @@ typedef struct gm_verify_result {
     double max_relative[GM_VERIFY_GROUPS], rms_relative[GM_VERIFY_GROUPS];
     int n_cases[GM_VERIFY_GROUPS];
     gm_verify_case *cases[GM_VERIFY_GROUPS];
+    int n_skipped;     /* points that are left out: a simulated model failed there */
+    char skipped[320]; /* the first of them, and why */
 } gm_verify_result;
 
 /** Compare at `points` >= 1 random points per group: cases, speeds from 1 rpm to the

@@ -7,6 +7,7 @@
 #include "sweep/verify_points.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #define MAX_GEARS 32
@@ -222,6 +223,13 @@ static gm_status compare_one(run *r, const gm_verify_draw *draw,
     return status;
 }
 
+static void leave_out(gm_verify_result *result, const gm_error *why)
+{
+    if (result->n_skipped++ == 0)
+        (void)snprintf(result->skipped, sizeof result->skipped, "%.*s",
+                       (int)sizeof result->skipped - 1, why->message);
+}
+
 static gm_status run_group(run *r, gm_verify_group group, const gm_reduced_probe *probe)
 {
     gm_verify_result *result = r->result;
@@ -238,8 +246,12 @@ static gm_status run_group(run *r, gm_verify_group group, const gm_reduced_probe
         label_case(r, &r->draws[group][i], &result->cases[group][i]);
     for (int k = 0; k < result->points; k++) {
         int i = (int)(gm_random_next(&random) % (uint64_t)n);
-        gm_verify_sample sample;
+        gm_verify_sample sample = {.failed = 0};
         gm_status status = compare_one(r, &r->draws[group][i], probe, &random, &sample);
+        if (sample.failed) {
+            leave_out(result, r->error);
+            continue;
+        }
         if (status != GM_OK)
             return status;
         status = keep_point(&result->cases[group][i], &sample, r->error);

@@ -84,13 +84,17 @@ static void draw_free(const gm_verify_draw *draw, const gm_plant *plant, uint64_
 typedef struct both_answers {
     gm_steady_result detailed;
     gm_reduced_answer reduced;
+    int failed; /* 1: a simulated model failed, no fault of the reduced one */
 } both_answers;
 
 static gm_status ask(gm_steady_solver *solver, const gm_reduced_probe *probe,
                      const gm_steady_point *point, both_answers *answers, gm_error *error)
 {
-    const double oil = gm_steady_solver_plant(solver)->info.oil_temperature;
+    const gm_plant *plant = gm_steady_solver_plant(solver);
+    const double oil = plant->info.oil_temperature;
     gm_status status = gm_steady_solve(solver, point, &answers->detailed, error);
+    answers->failed =
+        plant->is->measure && (status == GM_ERR_TOOL || status == GM_ERR_SOLVE);
     if (status != GM_OK)
         return status;
     return probe->at(probe->self, oil, point, answers->detailed.torque[0],
@@ -128,6 +132,7 @@ static gm_status compare_reaction(const gm_verify_draw *draw, gm_steady_solver *
     point.speed[1 + draw->path] = 0.0;
     point.direction[1 + draw->path] = 0.0;
     gm_status status = ask(solver, probe, &point, &resting, error);
+    sample->failed = resting.failed;
     if (status != GM_OK)
         return status;
     double torque = resting.detailed.torque[0];
@@ -153,6 +158,7 @@ gm_status gm_verify_compare(const gm_verify_draw *draw, gm_steady_solver *solver
         draw_engaged(draw, plant, random, &point);
     gm_steady_solver_restart(solver);
     gm_status status = ask(solver, probe, &point, &at, error);
+    sample->failed = at.failed;
     if (status != GM_OK)
         return status;
     sample->output_speed = point.speed[0];

@@ -32,6 +32,7 @@ typedef struct gm_verify_sample {
     double speed, torque;     /* of the path */
     double output_speed;
     double oil; /* K */
+    int failed; /* 1: a simulated model failed here, and the status says how */
 } gm_verify_sample;
 
 GM_NODISCARD gm_status gm_verify_compare(const gm_verify_draw *draw,

@@ -193,6 +193,19 @@ def test_points_with_trouble_are_skipped_and_named(tmp_path, trouble, words):
     assert 0 < result["uncertainty_Nm"] < 0.1
 
 
+def test_points_with_trouble_are_left_out_of_a_verification(tmp_path):
+    foreign.make_fmu(tmp_path, defines=("LAW_TROUBLE=3",))
+    rig = foreign.make_rig(tmp_path)
+    done = gearmap("reduce", rig, "-o", tmp_path / "small.fmu", *COARSE, "--points", 100, "--json")
+    assert done.returncode == 3, done.stderr
+    left_out = json.loads(done.stdout)["verify"]["skipped"]
+    # gear 2 of 5 above two thirds of the speed, half of the torques
+    assert 1 <= left_out <= 30
+    assert f"failed at {left_out} points of the verification" in done.stderr
+    done = gearmap("verify", rig, tmp_path / "small.fmu", "--steady", "--points", 100)
+    assert done.returncode == 3 and f"failed at {left_out} points" in done.stderr
+
+
 @pytest.mark.parametrize("change, words", [
     ({"token": "{other}"}, "cannot be instantiated: the GUID is"),
     ({"version": 3, "token": "{other}"}, "cannot be instantiated"),
