@@ -9,9 +9,9 @@
 
 #include <stddef.h>
 
-/* Sub-steps in one step: 12 events, those beyond are treated at the end of the step, and
- * the parts that a vibration asks for. */
-enum { GM_SUBSTEPS = 12 + GM_PARTS };
+/* In one step: sub-steps, of which events and the parts that a vibration asks for begin
+ * new ones; passes before solutions become shorter. */
+enum { GM_SUBSTEPS = 1 + GM_PARTS, GM_STEP_PASSES = 80 };
 
 /* ---- lookups ---- */
 
@@ -203,16 +203,21 @@ int gm_reduced_step(const gm_reduced_map *map, const gm_reduced_params *params,
         return GM_FLAG_NOT_FINITE;
     }
     gm_motion s = gm_load_motion(state);
-    gm_real rest = h;
+    gm_solution solution;
     int flags = 0, outside = 0;
     gm_take_prescribed(map, params, inputs, &s);
     for (int p = 0; p < map->n_paths; p++) {
         flags |= gm_command_gear(map, params, p, inputs->gear[p], &s);
     }
-    for (int i = 0; i < GM_SUBSTEPS && rest > 0; i++) {
-        const gm_span span = {h - rest, rest, h, i == GM_SUBSTEPS - 1};
+    gm_span span = {0, h, h, 0};
+    solution.passes = GM_STEP_PASSES;
+    solution.warm = 0;
+    for (int i = 1; i <= GM_SUBSTEPS && span.rest > 0; i++) {
+        span.last = i == GM_SUBSTEPS || solution.passes <= 0;
+        span.start = h - span.rest;
         lock_synchronised(map, params, &s);
-        rest -= gm_substep(map, params, inputs, &span, &state->cache, &s, &outside);
+        span.rest -= gm_substep(map, params, inputs, &span, &state->cache, &s, &solution);
+        outside |= solution.terms.outside;
     }
     if (!gm_motion_is_finite(map, &s)) {
         return GM_FLAG_NOT_FINITE;

@@ -40,7 +40,10 @@ static place place_of(int p, gm_real sign_n, gm_real sign_o, const gm_point *at)
     return q;
 }
 
-/* Number of the tables of a quadrant, 1 to 4: load losses have those from 8 on. */
+/* Number of the tables of a quadrant, 1 to 4: load losses have those from 8 on. At
+ * standstill, by direction of the output: */
+enum { REST = 5 };
+
 static int quadrant(const place *q)
 {
     return 1 + 2 * q->i + q->j;
@@ -102,35 +105,54 @@ static void add_bounds(gm_real r, const place *q, gm_patch *c)
     }
 }
 
-/* Narrow the patch to spots; speeds are not below zero. */
-static void narrow(const gm_spot *x, const gm_spot *y, gm_patch *c)
+/* Narrow the patch to the spots of a table; speeds are not below zero. */
+static void narrow(const gm_spot *s, gm_real *low, gm_real *high, gm_patch *c)
 {
-    c->x_low = x->low > c->x_low ? x->low : c->x_low;
-    c->x_high = x->high < c->x_high ? x->high : c->x_high;
-    c->y_low = y->low > c->y_low ? y->low : c->y_low;
-    c->y_high = y->high < c->y_high ? y->high : c->y_high;
-    c->outside = (short)(c->outside | x->outside | y->outside);
+    *low = s->low > *low ? s->low : *low;
+    *high = s->high < *high ? s->high : *high;
+    c->outside = (short)(c->outside | s->outside);
 }
 
-/* Place of a table. */
-typedef struct spots {
-    gm_spot x, y;
-} spots;
-
-/* The surface of a table in its spots about the corner of the patch. */
-static gm_surface about_corner(const gm_table2 *t, const gm_slices *of, gm_cell2 *curved,
-                               const place *q, const spots *at, const gm_patch *c)
+static void narrow_both(const gm_spot *x, const gm_spot *y, gm_patch *c)
 {
-    const gm_spot *x = &at->x, *y = &at->y;
-    gm_surface s = GM_CURVED && t->monotone
-                       ? gm_tangent_at(t, of, quadrant(q), curved, q->x, q->y, x, y)
-                       : gm_surface_at(t, of, x, y);
-    const gm_real u = x->next ? c->x_low - x->low : 0;
-    const gm_real v = y->next ? c->y_low - y->low : 0;
-    s.c += s.cx * u + s.cy * v + s.cxy * u * v;
-    s.cx += s.cxy * v;
-    s.cy += s.cxy * u;
-    return s;
+    narrow(x, &c->x_low, &c->x_high, c);
+    narrow(y, &c->y_low, &c->y_high, c);
+}
+
+/* Where the sums have their zero of u and v while lines are added: a corner of a cell. */
+typedef struct origin {
+    gm_real x, y;
+} origin;
+
+static origin origin_of(const gm_spot *x, const gm_spot *y)
+{
+    const origin o = {x->next ? x->low : 0, y->next ? y->low : 0};
+    return o;
+}
+
+static void move(gm_real u, gm_real v, gm_surface *s)
+{
+    s->c += s->cx * u + s->cy * v + s->cxy * u * v + s->cyy * v * v;
+    s->cx += s->cxy * v;
+    s->cy += s->cxy * u + 2 * s->cyy * v;
+}
+
+/* Add the surface of a table in its spots. */
+static void add_table(const gm_table2 *t, const gm_slices *of, gm_cell2 *curved,
+                      const place *q, const gm_spot *x, const gm_spot *y, const origin *o,
+                      gm_surface *s)
+{
+    gm_surface more = GM_CURVED && t->monotone
+                          ? gm_tangent_at(t, of, quadrant(q), curved, q->x, q->y, x, y)
+                          : gm_surface_at(t, of, x, y);
+    const origin own = origin_of(x, y);
+    if (own.x != o->x || own.y != o->y) {
+        move(o->x - own.x, o->y - own.y, &more);
+    }
+    s->c += more.c;
+    s->cx += more.cx;
+    s->cy += more.cy;
+    s->cxy += more.cxy;
 }
 
 /* k (half + slope v) (c + cx u + cy v) */
@@ -145,18 +167,18 @@ static void add_product(gm_real k, const gm_strip *half, const gm_real ramp[3],
 }
 
 /* A line on one of its ramps: sat(w_n - r w_o) and sat(r w_o) as c + cx u + cy v. */
-static void add_ramps(gm_real r, const place *q, const gm_strip *half, int slips,
-                      int rests, gm_patch *c)
+static void add_ramps(gm_real r, const place *q, const origin *o, const gm_strip *half,
+                      int slips, int rests, gm_patch *c)
 {
     const gm_real turn = r * q->sign_o / GM_LINE_WIDTH;
     const gm_real ahead = q->sign_n / GM_LINE_WIDTH;
     gm_real slip[3] = {(gm_real)slips, 0, 0}, both[3];
     if (slips == 0) {
-        slip[0] = ahead * c->x_low - turn * c->y_low;
+        slip[0] = ahead * o->x - turn * o->y;
         slip[1] = ahead;
         slip[2] = -turn;
     }
-    both[0] = slip[0] + (rests ? (gm_real)rests : turn * c->y_low);
+    both[0] = slip[0] + (rests ? (gm_real)rests : turn * o->y);
     both[1] = slip[1];
     both[2] = slip[2] + (rests ? 0 : turn);
     add_product(1, half, slip, &c->a);
@@ -164,16 +186,16 @@ static void add_ramps(gm_real r, const place *q, const gm_strip *half, int slips
 }
 
 static void add_line(const gm_drag_line *line, const gm_slices *of, const place *q,
-                     const gm_spot *y, gm_patch *c)
+                     const gm_spot *y, const origin *o, gm_patch *c)
 {
     const gm_real r = line->ratio;
     const int slips = side_of(q->w - r * q->w_o);
     const int rests = q->y < GM_LINE_WIDTH / gm_abs(r) ? 0 : r * q->sign_o > 0 ? 1 : -1;
     gm_strip half = gm_line_at(&line->jump[q->j], of, q->y, y);
     half.cx /= 2;
-    half.c = half.c / 2 + half.cx * (y->next ? c->y_low - y->low : 0);
+    half.c = half.c / 2 + half.cx * (y->next ? o->y - y->low : 0);
     if (slips == 0 || rests == 0) {
-        add_ramps(r, q, &half, slips, rests, c);
+        add_ramps(r, q, o, &half, slips, rests, c);
         return;
     }
     const gm_real k = -r * (gm_real)(slips + rests);
@@ -183,22 +205,50 @@ static void add_line(const gm_drag_line *line, const gm_slices *of, const place 
     c->b.cy += k * half.cx;
 }
 
-/* The spot on another axis: the same one if the axis is. */
-static gm_spot spot_again(const gm_axis *axis, int monotone, const gm_axis *first,
-                          const gm_spot *s, gm_real q)
+static gm_spot spot_of(const gm_table2 *t, const gm_axis *axis, gm_real q)
 {
-    if (axis->x == first->x && axis->n == first->n) {
-        return *s;
-    }
-    return monotone ? gm_spot_near(axis, q) : gm_spot_on(axis, q);
+    return GM_CURVED && t->monotone ? gm_spot_near(axis, q) : gm_spot_on(axis, q);
 }
 
-static spots spots_of(const gm_table2 *t, const place *q)
+/* The spot on another axis: the same one if the axis is. */
+static gm_spot spot_again(const gm_table2 *t, const gm_axis *axis, const gm_axis *first,
+                          const gm_spot *s, gm_real q)
 {
-    const int curved = GM_CURVED && t->monotone;
-    const spots s = {curved ? gm_spot_near(&t->x, q->x) : gm_spot_on(&t->x, q->x),
-                     curved ? gm_spot_near(&t->y, q->y) : gm_spot_on(&t->y, q->y)};
-    return s;
+    return axis->x == first->x && axis->n == first->n ? *s : spot_of(t, axis, q);
+}
+
+static void empty_patch(int key, gm_patch *c)
+{
+    static const gm_surface nothing = {0, 0, 0, 0, 0};
+    c->key = (short)key;
+    c->outside = c->sides = 0;
+    c->x_low = c->y_low = 0;
+    c->x_high = c->y_high = GM_UNBOUNDED;
+    c->a = c->b = nothing;
+}
+
+/* Lines; n and its spot y as a first guess of theirs. */
+static void add_lines(const gm_path *path, const gm_slices *of, const place *q,
+                      const gm_table2 *n, const gm_spot *y, const origin *o, gm_patch *c)
+{
+    for (int i = 0; i < path->n_lines; i++) {
+        const gm_drag_line *line = &path->lines[i];
+        const gm_axis *axis = &line->jump[q->j].x;
+        const gm_spot at = spot_again(n, axis, &n->y, y, q->y);
+        narrow(&at, &c->y_low, &c->y_high, c);
+        add_bounds(line->ratio, q, c);
+        add_line(line, of, q, &at, o, c);
+    }
+}
+
+/* Sums from the corner of the patch on. */
+static void move_to_corner(const origin *o, gm_patch *c)
+{
+    const gm_real u = c->x_low - o->x, v = c->y_low - o->y;
+    if (u != 0 || v != 0) {
+        move(u, v, &c->a);
+        move(u, v, &c->b);
+    }
 }
 
 static void fill(const gm_drive *d, int p, const place *q, gm_patch *c)
@@ -206,29 +256,40 @@ static void fill(const gm_drive *d, int p, const place *q, gm_patch *c)
     const gm_path *path = &d->map->path[p];
     const gm_slices *of = &d->cache->oil.slices;
     const gm_table2 *n = &path->drag[q->i][q->j], *r = &path->reaction[q->i][q->j];
-    const int curved = GM_CURVED && n->monotone, n_lines = path->n_lines;
-    const spots at_n = spots_of(n, q);
-    const spots at_r = {spot_again(&r->x, curved, &n->x, &at_n.x, q->x),
-                        spot_again(&r->y, curved, &n->y, &at_n.y, q->y)};
-    c->key = (short)quadrant(q);
-    c->outside = c->sides = 0;
-    c->x_low = c->y_low = 0;
-    c->x_high = c->y_high = GM_UNBOUNDED;
-    narrow(&at_n.x, &at_n.y, c);
-    narrow(&at_r.x, &at_r.y, c);
-    for (int i = 0; i < n_lines; i++) {
-        const gm_axis *axis = &path->lines[i].jump[q->j].x;
-        const gm_spot y = spot_again(axis, curved, &n->y, &at_n.y, q->y);
-        narrow(&at_n.x, &y, c);
-        add_bounds(path->lines[i].ratio, q, c);
-    }
-    c->a = about_corner(n, of, gm_curved_cell(d->cache, p, 0), q, &at_n, c);
-    c->b = about_corner(r, of, gm_curved_cell(d->cache, p, 1), q, &at_r, c);
-    for (int i = 0; i < n_lines; i++) {
-        const gm_axis *axis = &path->lines[i].jump[q->j].x;
-        const gm_spot y = spot_again(axis, curved, &n->y, &at_n.y, q->y);
-        add_line(&path->lines[i], of, q, &y, c);
-    }
+    gm_spot x = spot_of(n, &n->x, q->x), y = spot_of(n, &n->y, q->y);
+    const origin o = origin_of(&x, &y);
+    empty_patch(quadrant(q), c);
+    narrow_both(&x, &y, c);
+    add_table(n, of, gm_curved_cell(d->cache, p, 0), q, &x, &y, &o, &c->a);
+    add_lines(path, of, q, n, &y, &o, c);
+    x = spot_again(n, &r->x, &n->x, &x, q->x);
+    y = spot_again(n, &r->y, &n->y, &y, q->y);
+    narrow_both(&x, &y, c);
+    add_table(r, of, gm_curved_cell(d->cache, p, 1), q, &x, &y, &o, &c->b);
+    move_to_corner(&o, c);
+}
+
+/* N at standstill over |w_o|: surface a forward, b backward. */
+static void fill_rest(const gm_drive *d, int p, place *q, gm_patch *c)
+{
+    const gm_path *path = &d->map->path[p];
+    const gm_slices *of = &d->cache->oil.slices;
+    const gm_table2 *n = &path->drag[GM_FORWARD][q->j];
+    gm_spot x = spot_of(n, &n->x, 0), y = spot_of(n, &n->y, q->y);
+    const origin o = {0, y.next ? y.low : 0};
+    empty_patch(REST + q->j, c);
+    add_lines(path, of, q, n, &y, &o, c);
+    c->b = c->a;
+    narrow_both(&x, &y, c);
+    add_table(n, of, gm_curved_cell(d->cache, p, 0), q, &x, &y, &o, &c->a);
+    n = &path->drag[GM_BACKWARD][q->j];
+    q->i = GM_BACKWARD;
+    x = spot_of(n, &n->x, 0);
+    y = spot_of(n, &n->y, q->y);
+    narrow_both(&x, &y, c);
+    add_table(n, of, gm_curved_cell(d->cache, p, 0), q, &x, &y, &o, &c->b);
+    c->x_low = 0;
+    move_to_corner(&o, c);
 }
 
 /* ---- reading it ---- */
@@ -260,24 +321,18 @@ void gm_drag_terms(const gm_drive *d, int p, gm_real sign_n, gm_real sign_o,
 gm_real gm_drag_at_rest(const gm_drive *d, int p, gm_real sign_n, gm_real sign_o,
                         const gm_point *at, int *outside)
 {
-    const gm_path *path = &d->map->path[p];
-    const int i = gm_direction(sign_n), j = gm_direction(sign_o);
-    const gm_real w_o = at->m[GM_OUT], y = gm_not_below_zero(sign_o * w_o);
-    const gm_table2 *n = &path->drag[i][j];
-    const gm_spot s = gm_spot_on(&n->y, y);
-    const gm_slices *of = &d->cache->oil.slices;
-    gm_real sum = gm_value_at_rest(n, of, y);
-    for (int k = 0; k < path->n_lines; k++) {
-        const gm_table1 *jump = &path->lines[k].jump[j];
-        const gm_spot l = spot_again(&jump->x, 0, &n->y, &s, y);
-        const gm_strip at_y = gm_line_at(jump, of, y, &l);
-        const gm_real slip = -path->lines[k].ratio * w_o / GM_LINE_WIDTH;
-        const gm_real half = (at_y.c + at_y.cx * (y - l.low)) / 2;
-        sum += half * (slip > 1 ? 1 : slip < -1 ? -1 : slip);
-        *outside |= l.outside;
+    const int j = gm_direction(sign_o);
+    const gm_real y = gm_not_below_zero(sign_o * at->m[GM_OUT]);
+    gm_patch *c = &d->cache->path[p];
+    if (c->key != REST + j || !gm_in_patch(c, 0, y) ||
+        (GM_CURVED && d->map->path[p].drag[0][0].monotone)) {
+        place q = {GM_FORWARD, j, 0, y, 0, sign_o * y, 1, sign_o};
+        fill_rest(d, p, &q, c);
     }
-    *outside |= s.outside;
-    return d->scale * sum;
+    const gm_surface *n = sign_n < 0 ? &c->b : &c->a;
+    const gm_real v = y - c->y_low;
+    *outside |= c->outside;
+    return d->scale * (n->c + (n->cy + n->cyy * v) * v);
 }
 
 /* ---- do they hold at another point? ---- */

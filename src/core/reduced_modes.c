@@ -75,6 +75,8 @@ void gm_solve_at(const gm_reduced_map *map, const gm_reduced_params *params,
                  gm_reduced_state *state, gm_drive *d, gm_solution *s)
 {
     const gm_motion motion = present_motion(map, params, in, state);
+    s->passes = GM_PASSES;
+    s->warm = 0;
     if (modes) {
         make_drive(map, params, in, modes, &motion, &state->cache, d);
         solve_in_modes(modes, d, s);
@@ -230,6 +232,8 @@ static void find_modes(const gm_reduced_map *map, const gm_reduced_params *param
                              : 0;
     }
     make_drive(map, params, in, modes, s, cache, &d);
+    solution.passes = GM_PASSES;
+    solution.warm = 0;
     gm_solve(&d, &solution);
     for (int k = 0; k < GM_SHAFTS; k++) {
         const int turns = is_shaft(&d, k) && !solution.held[k];

@@ -138,6 +138,8 @@ typedef struct gm_solution {
                                 at rest, no friction acts */
     int held[GM_SHAFTS];     /* 1: at rest, friction holds it */
     int barred[GM_SHAFTS]; /* 1: was let go in this solution and did not move that way */
+    int passes;            /* that the step has left; at none a solution takes one */
+    int warm;              /* 1: point.a is that of a similar motion and a first guess */
 } gm_solution;
 
 static inline gm_real gm_abs(gm_real x)
@@ -265,10 +267,11 @@ typedef struct gm_span {
 } gm_span;
 
 /** One sub-step of at most span->rest; it ends at the first event unless span->last.
- *  Returns its length; *outside is set when a table was left. */
+ *  *solution: of the sub-step before, or its passes set and warm 0. Returns its length.
+ */
 gm_real gm_substep(const gm_reduced_map *map, const gm_reduced_params *params,
                    const gm_reduced_inputs *in, const gm_span *span,
-                   gm_reduced_cache *cache, gm_motion *s, int *outside);
+                   gm_reduced_cache *cache, gm_motion *s, gm_solution *solution);
 
 /** What no path and no coupling adds to. */
 void gm_clear_terms(gm_terms *terms);
@@ -355,7 +358,11 @@ void gm_drop_gradients(gm_terms *terms);
 void gm_newton_change(const gm_drive *d, gm_solution *s, const gm_point *point,
                       gm_real *change);
 
-/** Motion over d->h from the speeds d->w: accelerations, held shafts, loss torques. */
+/* Passes of one solution. */
+enum { GM_PASSES = 40 };
+
+/** Motion over d->h from the speeds d->w: accelerations, held shafts, loss torques. In:
+ *  s->passes, s->warm. */
 void gm_solve(const gm_drive *d, gm_solution *s);
 
 /** The same for the directions of rotation and the held shafts that *s has. */

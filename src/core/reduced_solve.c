@@ -27,7 +27,7 @@
  */
 #include "reduced_parts.h"
 
-enum { GM_PASSES = 60, GM_FREE_PASSES = 3, GM_ROUNDS = 2 * GM_SHAFTS + 1 };
+enum { GM_FREE_PASSES = 3, GM_ROUNDS = 2 * GM_SHAFTS + 1 };
 
 #define GM_FAR GM_BY_TYPE(1e300, 1e38) /* bracket that excludes nothing */
 
@@ -95,29 +95,28 @@ static void linearise(const gm_drive *d, gm_solution *s, const gm_point *from,
 
 /* What the next pass reads instead of to, one coordinate of the place: half way to the
  * last place on the other side once the passes go to and fro. */
-static gm_real next_coordinate(int pass, gm_real from, gm_real to, bracket *b)
+static gm_real next_coordinate(gm_real from, gm_real to, bracket *b)
 {
     if (to > from) {
         b->low = from > b->low ? from : b->low;
     } else if (to < from) {
         b->high = from < b->high ? from : b->high;
     }
-    if (pass >= GM_FREE_PASSES && b->low < b->high && b->low > -GM_FAR &&
-        b->high < GM_FAR && (to <= b->low || to >= b->high)) {
+    if (b->low < b->high && b->low > -GM_FAR && b->high < GM_FAR &&
+        (to <= b->low || to >= b->high)) {
         return b->low / 2 + b->high / 2;
     }
     return to;
 }
 
 /* Where the next pass reads the tables. */
-static void next_place(int pass, const gm_point *at, gm_point *to, bracket b[GM_PLACE])
+static void next_place(const gm_point *at, gm_point *to, bracket b[GM_PLACE])
 {
     for (int k = 0; k < GM_SHAFTS; k++) {
-        to->a[k] = next_coordinate(pass, at->a[k], to->a[k], &b[k]);
+        to->a[k] = next_coordinate(at->a[k], to->a[k], &b[k]);
     }
     for (int p = 0; p < GM_MAX_PATHS; p++) {
-        to->spring[p] =
-            next_coordinate(pass, at->spring[p], to->spring[p], &b[GM_SHAFTS + p]);
+        to->spring[p] = next_coordinate(at->spring[p], to->spring[p], &b[GM_SHAFTS + p]);
     }
 }
 
@@ -151,16 +150,17 @@ static void first_springs(const gm_drive *d, gm_solution *s, gm_point *at)
 
 /* First place: the output under its flange torques with the losses of the last step, free
  * paths at their present speed; with an elastic path everything at its present speed;
- * what is prescribed where it will be. */
+ * what is prescribed or held where it will be. Warm: as the motion before. */
 static void first_place(const gm_drive *d, gm_solution *s, gm_point *at)
 {
     const int sprung = d->elastic[0] || d->elastic[1];
-    at->a[0] = d->given[0];
-    at->a[1] = d->given[1];
+    for (int k = 0; k < GM_SHAFTS; k++) {
+        at->a[k] = s->warm && gm_moves(d, s, k) ? s->point.a[k] : d->given[k];
+    }
+    if (!s->warm && !sprung && gm_moves(d, s, GM_OUT)) {
+        at->a[GM_OUT] = (driving_torque(d) - d->brake) / d->inertia[GM_OUT];
+    }
     at->spring[0] = at->spring[1] = 0;
-    at->a[GM_OUT] = !gm_moves(d, s, GM_OUT) || sprung
-                        ? d->given[GM_OUT]
-                        : (driving_torque(d) - d->brake) / d->inertia[GM_OUT];
     set_speeds(d, at);
     if (sprung) {
         first_springs(d, s, at);
@@ -222,6 +222,7 @@ static void pass_alone(const gm_drive *d, gm_solution *s, gm_point *at)
 static void one_pass(const gm_drive *d, gm_solution *s, gm_point *at)
 {
     gm_real change[GM_SHAFTS];
+    s->passes--;
     if (moves_alone(d, s)) {
         pass_alone(d, s, at);
         return;
@@ -235,8 +236,8 @@ static void one_pass(const gm_drive *d, gm_solution *s, gm_point *at)
     linearise(d, s, at, &s->point);
 }
 
-/* Another problem than the pass before solved (s->lead has moved): nothing is excluded.
- */
+/* The first passes lead far, and when s->lead has moved the pass before has solved
+ * another problem: nothing is excluded. */
 static void reset_brackets(bracket b[GM_PLACE])
 {
     for (int k = 0; k < GM_PLACE; k++) {
@@ -267,13 +268,13 @@ static void more_passes(const gm_drive *d, gm_solution *s, gm_point *at)
     bracket brackets[GM_PLACE];
     gm_real lead = d->h / 2;
     reset_brackets(brackets);
-    for (int pass = 1; pass < GM_PASSES; pass++) {
+    for (int pass = 1; pass < GM_PASSES && s->passes > 0; pass++) {
         gm_point next = s->point;
-        if (s->lead != lead) {
+        if (s->lead != lead || pass < GM_FREE_PASSES) {
             reset_brackets(brackets);
             lead = s->lead;
         } else {
-            next_place(pass, at, &next, brackets);
+            next_place(at, &next, brackets);
             set_speeds(d, &next);
         }
         *at = next;
@@ -289,12 +290,13 @@ void gm_solve_given(const gm_drive *d, gm_solution *s)
 {
     gm_point at;
     s->lead = d->h / 2;
-    s->point.a[0] = s->point.a[1] = s->point.spring[0] = s->point.spring[1] = 0;
     first_place(d, s, &at);
+    s->point.a[0] = s->point.a[1] = s->point.spring[0] = s->point.spring[1] = 0;
     one_pass(d, s, &at);
     if (!gm_terms_hold(d, s, &at, &s->point)) {
         more_passes(d, s, &at);
     }
+    s->warm = d->h > 0;
 }
 
 /* ---- rest ---- */
@@ -358,7 +360,7 @@ static int revise(const gm_drive *d, gm_solution *s, int k)
         return 0;
     }
     if (s->held[k]) {
-        const int sign = s->barred[k] ? 0 : breaks_away(d, s, k);
+        const int sign = s->barred[k] || s->passes <= 0 ? 0 : breaks_away(d, s, k);
         s->held[k] = sign == 0;
         s->sign[k] = sign < 0 ? -1 : 1;
         return sign != 0;

@@ -161,7 +161,7 @@ gm_real gm_spring_energy(const gm_gear *gear, gm_real twist)
  * slips, must not have become large on the other side. Within one straight piece of T
  * the first Newton step is the solution. */
 
-enum { GM_MEETINGS = 24, GM_LINE_TRIALS = 12 };
+enum { GM_MEETINGS = 4, GM_LINE_TRIALS = 2 };
 
 #define CLOSE GM_BY_TYPE(1e-11, 4e-6)    /* relative, of a spring's torque */
 #define CLOSE_NM GM_BY_TYPE(1e-10, 1e-4) /* N.m */
@@ -287,6 +287,7 @@ void gm_springs_meet(const gm_drive *d, const gm_yield *yield, gm_solution *s)
     for (int p = 0; p < GM_MAX_PATHS; p++) {
         s->slip[p] = m.slip[p];
         s->spring[p] = m.spring[p];
+        s->spring[p].power += (m.used[p] - m.spring[p].torque) * m.slip[p];
         torque[p] = m.used[p];
     }
 }

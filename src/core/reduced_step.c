@@ -3,13 +3,19 @@
  * Sub-steps of the reduced gearset and the events between them.
  *
  * A step is one implicit-midpoint sub-step as long as no shaft comes to rest and no
- * synchroniser closes. Otherwise the first such event is located (secant with brackets),
- * the sub-step ends there, the speed or speed difference becomes exactly zero, and the
- * rest of the step goes on from there: friction never acts along the motion, so a passive
- * map gives a loss energy that never falls, and events cost no order of accuracy. What
- * the location leaves of the speed (1e-8 of it) is removed as an impulse of the friction
- * that is acting, with its energy in the account. Bounds: GM_SUBSTEPS events in a step
- * (those beyond are treated at the end of the step), GM_LOCATE solutions for each.
+ * synchroniser closes. Otherwise the sub-step is shortened to its first such event, by one
+ * step of regula falsi: accelerations hardly change within a step. What that leaves of the
+ * speed is taken by the friction that is acting, if it is strong enough, as an impulse
+ * with its energy in the account; then the speed is exactly zero. What it leaves of a slip
+ * goes by the impulse of engagement. The rest of the step goes on from there. The last of
+ * GM_SUBSTEPS is not shortened: events in it are treated at its end.
+ *
+ * Friction never drives: where a shaft turns round so early that its mean speed has
+ * another sign than at the start, its friction is turned as well, and if that turns the
+ * mean speed back, friction holds it at zero. So a passive map gives a loss energy that
+ * never falls. Bounds: GM_SUBSTEPS sub-steps, three solutions for each beside GM_TURNS that
+ * turn friction, GM_STEP_PASSES passes for all of them together; once they are used up a
+ * solution takes one pass and lets no shaft go.
  *
  * Account on every sub-step: work = sum tau_mean h m, loss = sum T h m over the very
  * torques T of the momentum balance, m the mean speeds. Hence work = change of kinetic
@@ -19,15 +25,11 @@
 
 #include <stddef.h>
 
-enum { GM_LOCATE = 16 }; /* solutions to locate one event */
+enum { GM_TURNS = 3 }; /* solutions to turn friction */
 
 /* Changes of a spring's torque, relative and in N.m, that need not be followed. */
 #define CALM GM_NUM(0.02)
 #define CALM_NM GM_NUM(0.2)
-
-/* Of the speed at the start of the sub-step. */
-/* Of the speed at the start of the sub-step. */
-#define GM_EVENT_TOLERANCE GM_BY_TYPE(1e-8, 1e-4)
 
 /* Events: shafts 0, 1, GM_OUT come to rest, then synchronisers 0, 1 close. */
 enum { GM_CLOSES = GM_SHAFTS, GM_EVENTS = GM_SHAFTS + GM_MAX_PATHS };
@@ -103,72 +105,79 @@ static int first_event(const gm_real from[GM_EVENTS], const gm_real to[GM_EVENTS
     return first;
 }
 
-/* Secant search for the end of the sub-step at its first event. */
-typedef struct search {
-    int event;
-    gm_real low, high;        /* lengths: no event is passed by, the event is passed by */
-    gm_real e_low[GM_EVENTS]; /* event speeds at low */
-    gm_real f_low, f_high;    /* weighted speeds of the event (Illinois) */
-    int side;                 /* bound that moved last: -1, +1; 0: none */
-} search;
-
-/* The event was passed at length h: it is the new upper bound. */
-static void lower_high(int event, gm_real h, const gm_real end[GM_EVENTS], search *s)
-{
-    const int again = s->side == 1 && event == s->event;
-    s->f_low = again ? s->f_low / 2 : s->e_low[event];
-    s->event = event;
-    s->high = h;
-    s->f_high = end[event];
-    s->side = 1;
-}
-
-static void raise_low(gm_real h, const gm_real end[GM_EVENTS], search *s)
-{
-    for (int i = 0; i < GM_EVENTS; i++) {
-        s->e_low[i] = end[i];
-    }
-    s->low = h;
-    s->f_low = end[s->event];
-    s->f_high = s->side == -1 ? s->f_high / 2 : s->f_high;
-    s->side = -1;
-}
-
-/* Shorten the sub-step, d->h long and solved in *solution, to end at its first event.
- * start, end: event speeds at its start and end (updated). Returns the event. */
+/* Shorten the sub-step, d->h long and solved in *solution, to end about at its first
+ * event. start, end: event speeds at its start and end (updated). Returns the event. */
 static int locate(const gm_reduced_inputs *in, gm_real t, const gm_real start[GM_EVENTS],
                   gm_real end[GM_EVENTS], gm_drive *d, gm_solution *solution)
 {
-    search s = {0, 0, 0, {0}, 0, 0, 0};
-    for (int i = 0; i < GM_EVENTS; i++) {
-        s.e_low[i] = start[i];
+    gm_real w[GM_SHAFTS];
+    const int event = first_event(start, end);
+    gm_set_span(in, t, d->h * (start[event] / (start[event] - end[event])), d);
+    gm_solve(d, solution);
+    end_speeds(d, solution, w);
+    event_speeds(d, w, end);
+    const int passed = first_event(start, end);
+    return passed >= 0 ? passed : event;
+}
+
+/* ---- mean speeds against their friction ---- */
+
+/* One shaft that turns round so early that its mean speed has another sign than its
+ * friction: friction turns round as well, then it holds the mean speed at zero. */
+static int turn_friction(gm_drive *d, gm_solution *s, int k, int hold)
+{
+    if (d->w[k] == 0 || !gm_moves(d, s, k) || !(s->point.m[k] * s->sign[k] < 0)) {
+        return 0;
     }
-    lower_high(first_event(start, end), d->h, end, &s);
-    for (int trial = 0; trial < GM_LOCATE; trial++) {
-        gm_real w[GM_SHAFTS];
-        gm_set_span(in, t, s.low + (s.high - s.low) * (s.f_low / (s.f_low - s.f_high)),
-                    d);
-        gm_solve(d, solution);
-        end_speeds(d, solution, w);
-        event_speeds(d, w, end);
-        const int passed = first_event(s.e_low, end);
-        const gm_real close = GM_EVENT_TOLERANCE * gm_abs(start[s.event]);
-        if ((passed < 0 || passed == s.event) && gm_abs(end[s.event]) <= close) {
-            break;
-        }
-        if (passed >= 0) {
-            lower_high(passed, d->h, end, &s);
-        } else {
-            raise_low(d->h, end, &s);
-        }
+    s->held[k] = hold || s->sign[k] * d->w[k] < 0;
+    s->sign[k] = -s->sign[k];
+    d->given[k] = s->held[k] ? -d->w[k] / d->mean : 0;
+    return 1;
+}
+
+/* A cone whose slip does lets go: what is left of the slip goes when it closes. */
+static int turn_cone(gm_drive *d, const gm_solution *s, int p)
+{
+    if (!(d->cone[p] * gm_slip(d, &s->point, p) < 0)) {
+        return 0;
     }
-    return s.event;
+    d->cone[p] = 0;
+    return 1;
+}
+
+/* No friction of the solution drives. */
+static void turn_frictions(gm_drive *d, gm_solution *s)
+{
+    for (int round = 1; round <= GM_TURNS; round++) {
+        int turned = turn_friction(d, s, GM_OUT, round == GM_TURNS);
+        for (int p = 0; p < d->n_paths; p++) {
+            turned |= d->own[p] && turn_friction(d, s, p, round == GM_TURNS);
+            turned |= turn_cone(d, s, p);
+        }
+        if (!turned) {
+            return;
+        }
+        gm_solve_given(d, s);
+    }
+}
+
+/* Whether friction has taken what is left of the speed of shaft k. If it could not, the
+ * shaft turns on with it. */
+static int is_stopped(const gm_drive *d, const gm_solution *solution, int k, gm_real end)
+{
+    const gm_terms *t = &solution->terms;
+    gm_real friction = k == GM_OUT ? t->out : t->path[k].drag;
+    for (int p = 0; k == GM_OUT && p < d->n_paths; p++) {
+        friction += d->engaged[p] ? d->ratio[p] * t->path[p].load : 0;
+    }
+    return solution->held[k] || d->inertia[k] * gm_abs(end) <= d->h * gm_abs(friction);
 }
 
 /* Treat an event, and what else was passed together with it. */
 static void treat_events(const gm_reduced_map *map, const gm_reduced_params *params,
-                         const gm_drive *d, int event, const gm_real start[GM_EVENTS],
-                         const gm_real end[GM_EVENTS], gm_motion *s)
+                         const gm_drive *d, const gm_solution *solution, int event,
+                         const gm_real start[GM_EVENTS], const gm_real end[GM_EVENTS],
+                         gm_motion *s)
 {
     for (int i = 0; i < GM_EVENTS; i++) {
         const int passed = (start[i] > 0 && end[i] < 0) || (start[i] < 0 && end[i] > 0);
@@ -177,7 +186,7 @@ static void treat_events(const gm_reduced_map *map, const gm_reduced_params *par
         }
         if (i >= GM_CLOSES) {
             gm_engage(map, params, i - GM_CLOSES, s);
-        } else if (i == GM_OUT || d->own[i]) {
+        } else if (is_stopped(d, solution, i, end[i])) {
             gm_bring_to_rest(map, params, i, s);
         }
     }
@@ -211,9 +220,12 @@ static void stop_at_event(const gm_reduced_map *map, const gm_reduced_params *pa
     if (event >= 0 && !span->last) {
         event = locate(in, span->start, start, end, d, solution);
     }
+    turn_frictions(d, solution);
+    end_speeds(d, solution, w);
+    event_speeds(d, w, end);
     advance(d, solution, s);
     if (event >= 0) {
-        treat_events(map, params, d, event, start, end, s);
+        treat_events(map, params, d, solution, event, start, end, s);
     }
 }
 
@@ -285,17 +297,15 @@ static void solve_part(const gm_reduced_inputs *in, const gm_span *span, gm_real
 
 gm_real gm_substep(const gm_reduced_map *map, const gm_reduced_params *params,
                    const gm_reduced_inputs *in, const gm_span *span,
-                   gm_reduced_cache *cache, gm_motion *s, int *outside)
+                   gm_reduced_cache *cache, gm_motion *s, gm_solution *solution)
 {
     gm_drive d;
-    gm_solution solution;
     gm_make_drive(map, params, s, cache, &d);
-    solve_part(in, span, part_of(&d, span), &d, &solution);
-    if (passes_event(&d, &solution)) {
-        stop_at_event(map, params, in, span, &d, &solution, s);
+    solve_part(in, span, part_of(&d, span), &d, solution);
+    if (passes_event(&d, solution)) {
+        stop_at_event(map, params, in, span, &d, solution, s);
     } else {
-        advance(&d, &solution, s);
+        advance(&d, solution, s);
     }
-    *outside |= solution.terms.outside;
     return d.h;
 }

@@ -10,7 +10,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-cp "$here"/../../src/core/*.[ch] "$work"
+cp "$here"/../../src/core/*.[ch] "$here"/../../embedded/gm_*.[ch] "$work"
 sed -i 's/GM_REAL_IS_FLOAT 0/GM_REAL_IS_FLOAT 1/' "$work/gm_config.h"
 case $1 in
 *.fmu) unzip -qp "$1" sources/gm_tables.h >"$work/gm_tables.h" ;;
