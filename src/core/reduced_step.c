@@ -3,19 +3,19 @@
  * Sub-steps of the reduced gearset and the events between them.
  *
  * A step is one implicit-midpoint sub-step as long as no shaft comes to rest and no
- * synchroniser closes. Otherwise the sub-step is shortened to its first such event, by one
- * step of regula falsi: accelerations hardly change within a step. What that leaves of the
- * speed is taken by the friction that is acting, if it is strong enough, as an impulse
- * with its energy in the account; then the speed is exactly zero. What it leaves of a slip
- * goes by the impulse of engagement. The rest of the step goes on from there. The last of
- * GM_SUBSTEPS is not shortened: events in it are treated at its end.
+ * synchroniser closes. Otherwise the sub-step is shortened to its first such event, by
+ * one step of regula falsi: accelerations hardly change within a step. What that leaves
+ * of the speed is taken by the friction that is acting, if it is strong enough, as an
+ * impulse with its energy in the account; then the speed is exactly zero. What it leaves
+ * of a slip goes by the impulse of engagement. The rest of the step goes on from there.
+ * The last of GM_SUBSTEPS is not shortened: events in it are treated at its end.
  *
  * Friction never drives: where a shaft turns round so early that its mean speed has
  * another sign than at the start, its friction is turned as well, and if that turns the
  * mean speed back, friction holds it at zero. So a passive map gives a loss energy that
- * never falls. Bounds: GM_SUBSTEPS sub-steps, three solutions for each beside GM_TURNS that
- * turn friction, GM_STEP_PASSES passes for all of them together; once they are used up a
- * solution takes one pass and lets no shaft go.
+ * never falls. Bounds: GM_SUBSTEPS sub-steps, three solutions for each beside GM_TURNS
+ * that turn friction, GM_STEP_PASSES passes for all of them together; once they are used
+ * up a solution takes one pass and lets no shaft go.
  *
  * Account on every sub-step: work = sum tau_mean h m, loss = sum T h m over the very
  * torques T of the momentum balance, m the mean speeds. Hence work = change of kinetic
