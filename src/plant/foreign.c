@@ -28,7 +28,8 @@ static gm_status open_plugin(gm_foreign *f, gm_error *error)
     if (!f->names || !f->values)
         return gm_fail(error, GM_ERR_MEMORY, "out of memory");
     for (size_t i = 0; i < n; i++) {
-        f->names[i] = file->parameters[i].id.name;
+        const gm_rig_parameter *from = &file->parameters[i];
+        f->names[i] = from->variable[0] ? from->variable : from->id.name;
         f->values[i] = file->parameters[i].value;
     }
     const gm_plugin_settings settings = {.oil_temperature = file->oil_temperature,

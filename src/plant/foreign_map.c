@@ -75,12 +75,12 @@ static gm_status map_parameters(gm_foreign *foreign, gm_error *error)
         return gm_fail(error, GM_ERR_MEMORY, "out of memory");
     for (int i = 0; i < file->n_parameters; i++) {
         const gm_rig_parameter *from = &file->parameters[i];
-        const fmu_variable *is =
-            gm_fmu_description_find(&foreign->description, from->id.name);
+        const char *name = from->variable[0] ? from->variable : from->id.name;
+        const fmu_variable *is = gm_fmu_description_find(&foreign->description, name);
         if (!is || is->kind == FMU_OTHER)
             return gm_fail(error, GM_ERR_FORMAT,
                            "%s: the FMU has no %s '%s' to set as a parameter",
-                           file->model_path, is ? "number" : "variable", from->id.name);
+                           file->model_path, is ? "number" : "variable", name);
         foreign->parameters[i] = (foreign_parameter){is, from->value};
     }
     return GM_OK;

@@ -47,6 +47,7 @@ typedef struct gm_rig_path {
 
 typedef struct gm_rig_parameter {
     gm_label id;
+    char *variable; /* its name in the model, owned; empty: that of the label */
     double value;
 } gm_rig_parameter;
 

@@ -100,7 +100,10 @@ static const gm_section path_section = {
 
 #define OWNER gm_rig_parameter
 static const gm_field parameter_fields[] = {
-    {NUMBER("value", -1e300, 1e300), AT(value), .help = "in the model's unit"}, END};
+    {NUMBER("value", -1e300, 1e300), AT(value), .help = "in the model's unit"},
+    {.key = "variable", .type = GM_FIELD_TEXT, AT(variable), DEFAULT(""),
+     .help = "its name in the model, where that is more than letters, digits and _"},
+    END};
 static const gm_section parameter = {
     .title = "parameters", .word = "parameter",
     .help = "Parameters and constant inputs of the model by name.",
@@ -212,6 +215,8 @@ void gm_rig_file_destroy(gm_rig_file *file)
     }
     clear_flange(&file->output);
     clear_signal(&file->oil);
+    for (int i = 0; i < file->n_parameters && file->parameters; i++)
+        gm_free(file->parameters[i].variable);
     gm_free(file->parameters);
     gm_free(file->title);
     gm_free(file->model);

@@ -256,6 +256,7 @@ def test_malformed_fmus_are_refused_and_nothing_stays(tmp_path, entries, words):
     ("{ratio: 14.0}", "{ratio: fourteen}", "rig.yaml:"),
     ("{ratio: 14.0}", "{ratio: 14.1}", "given ratio 14.1, the model makes 14"),
     ("output.w}", "output.w, unit: furlong}", "unit 'furlong'"),
+    ("limits:", "parameters: {a: {variable: b.c, value: 1}}\nlimits:", "no variable 'b.c' to set"),
     ("model: law.fmu", "model: none.fmu", "none.fmu: cannot be opened"),
     ("input:\n", "entry:\n", "expected odd and even, or one named input"),
     ("speed: {variable: input.w}", "speed: {variable: input.tau}", "does not"),
