@@ -36,7 +36,8 @@ typedef struct gm_variant_outcome {
     long points;
     double elapsed; /* s */
     double max_error, rms_error;
-    int missed; /* tables that missed the tolerance */
+    int missed;  /* tables that missed the tolerance */
+    int skipped; /* points at which a foreign model failed */
     char fmu_sha256[65];
     char message[GM_BATCH_MESSAGE]; /* of a failure */
 } gm_variant_outcome;

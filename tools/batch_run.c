@@ -85,7 +85,8 @@ static gm_status reduce(const gm_reduce_settings *settings, gm_variant_outcome *
             .elapsed = r.elapsed,
             .max_error = r.verify.result.max_relative[GM_VERIFY_SINGLE],
             .rms_error = r.verify.result.rms_relative[GM_VERIFY_SINGLE],
-            .missed = count_missed(&r.sweep.summary)};
+            .missed = count_missed(&r.sweep.summary),
+            .skipped = r.sweep.summary.n_skipped + r.verify.result.n_skipped};
         status = gm_sha256_file(settings->output, outcome->fmu_sha256, error);
     }
     gm_reduction_clear(&r);

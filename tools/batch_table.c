@@ -20,13 +20,14 @@ enum {
     COLUMN_MAX,
     COLUMN_RMS,
     COLUMN_MISSED,
+    COLUMN_SKIPPED,
     COLUMN_FMU,
     COLUMN_KEY,
     N_COLUMNS
 };
 static const char *const columns[N_COLUMNS] = {
-    "name",         "state",         "points",     "elapsed_s", "max_relative",
-    "rms_relative", "missed_tables", "fmu_sha256", "key"};
+    "name",         "state",         "points",         "elapsed_s",  "max_relative",
+    "rms_relative", "missed_tables", "skipped_points", "fmu_sha256", "key"};
 
 static gm_status table_path(const gm_batch *batch, char path[GM_PATH_SIZE],
                             gm_error *error)
@@ -43,7 +44,10 @@ static void hash_settings(gm_sha256 *sum, const gm_reduce_settings *s)
 {
     const double number[] = {s->sweep.speed_step,      s->sweep.torque_step,
                              s->sweep.speed_max,       s->sweep.torque_max,
-                             s->sweep.tolerance.share, s->sweep.tolerance.torque};
+                             s->sweep.tolerance.share, s->sweep.tolerance.torque,
+                             s->sweep.dwell,           s->sweep.ramp_time};
+    const char *const text[] = {s->sweep.losses, s->sweep.inertia, s->bake.interpolation,
+                                s->bake.compiler};
     for (size_t i = 0; i < sizeof number / sizeof *number; i++)
         gm_sha256_double(sum, number[i]);
     gm_sha256_int(sum, s->sweep.oil.n);
@@ -51,8 +55,8 @@ static void hash_settings(gm_sha256 *sum, const gm_reduce_settings *s)
         gm_sha256_double(sum, s->sweep.oil.value[i]);
     gm_sha256_int(sum, s->points);
     gm_sha256_int(sum, s->seed);
-    gm_sha256_text(sum, s->bake.interpolation);
-    gm_sha256_text(sum, s->bake.compiler ? s->bake.compiler : "");
+    for (size_t i = 0; i < sizeof text / sizeof *text; i++)
+        gm_sha256_text(sum, text[i] ? text[i] : "");
 }
 
 /* Hash of a description, or of a rig file and its model. */
@@ -103,7 +107,7 @@ static gm_status read_cells(const gm_csv *csv, row *r, gm_error *error)
     for (int i = 0; i < gm_csv_n_columns(csv) && status == GM_OK; i++) {
         int column = gm_csv_column(csv, i);
         r->text[column] = gm_csv_cell(csv, i);
-        if (column >= COLUMN_POINTS && column <= COLUMN_MISSED)
+        if (column >= COLUMN_POINTS && column <= COLUMN_SKIPPED)
             status = gm_csv_number(csv, i, &r->number[column], error);
     }
     return status;
@@ -133,7 +137,8 @@ static void take_row(const gm_batch *batch, const row *r)
                                           .elapsed = r->number[COLUMN_ELAPSED],
                                           .max_error = r->number[COLUMN_MAX],
                                           .rms_error = r->number[COLUMN_RMS],
-                                          .missed = (int)r->number[COLUMN_MISSED]};
+                                          .missed = (int)r->number[COLUMN_MISSED],
+                                          .skipped = (int)r->number[COLUMN_SKIPPED]};
         (void)snprintf(v->outcome.fmu_sha256, sizeof v->outcome.fmu_sha256, "%s",
                        r->text[COLUMN_FMU]);
     }
@@ -184,9 +189,9 @@ static void write_rows(const gm_batch *batch, FILE *out)
         const gm_variant_outcome *o = &v->outcome;
         if (v->state == GM_VARIANT_WAITING || v->state == GM_VARIANT_RUNNING)
             continue;
-        fprintf(out, "%s,%s,%ld,%.3f,%.9g,%.9g,%d,%s,%s\n", v->name,
+        fprintf(out, "%s,%s,%ld,%.3f,%.9g,%.9g,%d,%d,%s,%s\n", v->name,
                 gm_variant_state_name(v->state), o->points, o->elapsed, o->max_error,
-                o->rms_error, o->missed, o->fmu_sha256, v->key);
+                o->rms_error, o->missed, o->skipped, o->fmu_sha256, v->key);
     }
 }
 

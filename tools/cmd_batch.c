@@ -46,6 +46,14 @@ static int count(const gm_batch *batch, gm_variant_state state)
     return n;
 }
 
+static int count_skipped(const gm_batch *batch)
+{
+    int n = 0;
+    for (int i = 0; i < batch->n; i++)
+        n += batch->variants[i].outcome.skipped;
+    return n;
+}
+
 static int name_width(const gm_batch *batch)
 {
     int width = 7;
@@ -69,6 +77,8 @@ static void print_variant(const gm_batch *batch, const gm_variant *v, int width,
             100.0 * o->max_error, 100.0 * o->rms_error, batch->folder, v->name);
     if (o->missed > 0)
         fprintf(out, " (%d tables miss the tolerance)", o->missed);
+    if (o->skipped > 0)
+        fprintf(out, " (its model failed at %d points)", o->skipped);
     fputc('\n', out);
 }
 
@@ -103,6 +113,7 @@ static void variant_json(const gm_batch *batch, const gm_variant *v, gm_json *js
         gm_json_number(json, "max_relative", o->max_error);
         gm_json_number(json, "rms_relative", o->rms_error);
         gm_json_integer(json, "missed_tables", o->missed);
+        gm_json_integer(json, "skipped_points", o->skipped);
         (void)snprintf(path, sizeof path, "%s/%s.fmu", batch->folder, v->name);
         gm_json_text(json, "fmu", path);
         (void)snprintf(path, sizeof path, "%s/%s.map", batch->folder, v->name);
@@ -187,8 +198,10 @@ static int run(const void *given)
         return GM_EXIT_USAGE;
     batch.cores = cores_of(a);
     gm_status status = reduce_all(a, &batch, &error);
+    int skipped = count_skipped(&batch), code;
     gm_batch_clear(&batch);
-    return gm_command_end(status, &error);
+    code = gm_command_end(status, &error);
+    return code == GM_EXIT_DONE && skipped > 0 ? GM_EXIT_SKIPPED : code;
 }
 
 const gm_command gm_command_batch = {
@@ -196,7 +209,8 @@ const gm_command gm_command_batch = {
     .summary = "reduce a list or folder of descriptions, on all cores",
     .details =
         "Each variant is reduced in a process of its own, one on every core. A variant "
-        "that fails does not stop the others; then the exit code is 1. Finished variants "
+        "that fails does not stop the others; then the exit code is 1. It is 3 when all "
+        "are done but a foreign model failed at some points. Finished variants "
         "whose description and options (and this program) have not changed are not done "
         "again, interrupted ones resume. Names are those of the files, with folders "
         "before them where two would be the same.",

@@ -206,6 +206,20 @@ def test_points_with_trouble_are_left_out_of_a_verification(tmp_path):
     assert done.returncode == 3 and f"failed at {left_out} points" in done.stderr
 
 
+def test_points_with_trouble_are_counted_in_a_batch(tmp_path):
+    foreign.make_fmu(tmp_path, defines=("LAW_TROUBLE=3",))
+    foreign.make_rig(tmp_path)
+    batch = ("batch", tmp_path, "-o", tmp_path / "out", *COARSE, "--points", 100, "--json")
+    for state in ("done", "kept"):
+        done = gearmap(*batch)
+        assert done.returncode == 3, done.stderr
+        variant, = json.loads(done.stdout)["variants"]
+        assert variant["state"] == state and variant["skipped_points"] >= 4
+    # other experiments: nothing of the earlier run is kept
+    done = gearmap(*batch, "--dwell", "10ms")
+    assert json.loads(done.stdout)["variants"][0]["state"] != "kept"
+
+
 @pytest.mark.parametrize("change, words", [
     ({"token": "{other}"}, "cannot be instantiated: the GUID is"),
     ({"version": 3, "token": "{other}"}, "cannot be instantiated"),
