@@ -3,10 +3,10 @@
  * The loader of FMUs: a baked one runs, everything malformed is refused with a sentence
  * and leaves no temporary folder.
  */
+#include "baked.h"
 #include "plant/gm_fmu.h"
 
 #include "bake/example_map.h"
-#include "bake/gm_bake.h"
 #include "base/alloc.h"
 
 #include <dirent.h>
@@ -30,10 +30,7 @@ typedef struct place {
 
 static int make_place(void **state)
 {
-    const gm_bake_options options = {.share = GM_BINARY_DIR "/share/gearmap"};
     place *at = calloc(1, sizeof *at);
-    gm_map *map = example_map(2);
-    gm_error error;
     strcpy(at->folder, "/tmp/test_fmu-XXXXXX");
     assert_non_null(mkdtemp(at->folder));
     snprintf(at->temporary, sizeof at->temporary, "%s/temporary", at->folder);
@@ -41,9 +38,7 @@ static int make_place(void **state)
     snprintf(at->bad, sizeof at->bad, "%s/bad.fmu", at->folder);
     assert_int_equal(mkdir(at->temporary, 0700), 0);
     assert_int_equal(setenv("TMPDIR", at->temporary, 1), 0);
-    if (gm_bake_fmu2(map, &options, at->good, NULL, &error) != GM_OK)
-        fail_msg("%s", error.message);
-    gm_map_destroy(map);
+    baked_write(at->good);
     *state = at;
     return 0;
 }

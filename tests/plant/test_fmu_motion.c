@@ -3,10 +3,8 @@
  * A baked component in Model Exchange as a plant in motion: starts at the speeds that are
  * given, its derivatives are those of its rates, what is no component is refused.
  */
+#include "baked.h"
 #include "plant/gm_fmu_motion.h"
-
-#include "bake/example_map.h"
-#include "bake/gm_bake.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -21,36 +19,6 @@
 
 enum { N_MAX = 32 };
 
-typedef struct place {
-    char folder[64], fmu[96];
-} place;
-
-static int make_place(void **state)
-{
-    const gm_bake_options options = {.share = GM_BINARY_DIR "/share/gearmap"};
-    place *at = calloc(1, sizeof *at);
-    gm_map *map = example_map(2);
-    gm_error error;
-    assert_non_null(at);
-    strcpy(at->folder, "/tmp/test_fmu_motion-XXXXXX");
-    assert_non_null(mkdtemp(at->folder));
-    snprintf(at->fmu, sizeof at->fmu, "%s/good.fmu", at->folder);
-    if (gm_bake_fmu2(map, &options, at->fmu, NULL, &error) != GM_OK)
-        fail_msg("%s", error.message);
-    gm_map_destroy(map);
-    *state = at;
-    return 0;
-}
-
-static int remove_place(void **state)
-{
-    place *at = *state;
-    (void)unlink(at->fmu);
-    (void)rmdir(at->folder);
-    free(at);
-    return 0;
-}
-
 /* One motion with its first gear engaged, its output turning. */
 typedef struct rig {
     gm_fmu_plant *plant;
@@ -61,13 +29,13 @@ typedef struct rig {
     gm_motion_input input;
 } rig;
 
-static void open_rig(rig *r, const place *at, gm_fmu_fidelity fidelity)
+static void open_rig(rig *r, const char *fmu, gm_fmu_fidelity fidelity)
 {
     gm_error error;
     const double speed[GM_MAX_FLANGES] = {30.0, 0.0, 12.0};
     memset(r, 0, sizeof *r);
     r->input = (gm_motion_input){.torque = {-300.0, 80.0, 2.0}, .gear = {1, 0}};
-    if (gm_fmu_plant_create(at->fmu, fidelity, &r->plant, &error) != GM_OK)
+    if (gm_fmu_plant_create(fmu, fidelity, &r->plant, &error) != GM_OK)
         fail_msg("%s", error.message);
     r->dynamics = gm_fmu_plant_dynamics(r->plant);
     assert_int_equal(r->dynamics.n_paths, 2);
@@ -159,11 +127,12 @@ static void starts_at_the_speeds_that_are_given(void **state)
 
 static void what_is_no_component_is_refused(void **state)
 {
-    const place *at = *state;
+    const char *fmu = *state;
     char missing[128];
     gm_fmu_plant *plant = NULL;
     gm_error error;
-    snprintf(missing, sizeof missing, "%s/missing.fmu", at->folder);
+    snprintf(missing, sizeof missing, "%.*s/missing.fmu", (int)(strrchr(fmu, '/') - fmu),
+             fmu);
     assert_int_not_equal(gm_fmu_plant_create(missing, GM_FMU_RIGID, &plant, &error),
                          GM_OK);
     assert_non_null(strstr(error.message, "missing.fmu"));
@@ -177,5 +146,5 @@ int main(void)
         cmocka_unit_test(starts_at_the_speeds_that_are_given),
         cmocka_unit_test(what_is_no_component_is_refused),
     };
-    return cmocka_run_group_tests(tests, make_place, remove_place);
+    return cmocka_run_group_tests(tests, baked_make, baked_remove);
 }

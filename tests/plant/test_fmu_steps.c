@@ -3,10 +3,9 @@
  * A baked component in Co-Simulation as a plant in motion: it gets the impulse that acts,
  * its speeds are those of the FMU, and a stiff clutch beside it does no harm.
  */
+#include "baked.h"
 #include "plant/gm_fmu_steps.h"
 
-#include "bake/example_map.h"
-#include "bake/gm_bake.h"
 #include "base/alloc.h"
 #include "plant/gm_fmu.h"
 
@@ -24,36 +23,6 @@
 #define STEP 1e-3
 enum { ODD = 1, EVEN = 2, N_FLANGES = 3, NEUTRAL = 0, ENGAGED = 2 };
 
-typedef struct place {
-    char folder[64], fmu[96];
-} place;
-
-static int make_place(void **state)
-{
-    const gm_bake_options options = {.share = GM_BINARY_DIR "/share/gearmap"};
-    place *at = calloc(1, sizeof *at);
-    gm_map *map = example_map(2);
-    gm_error error;
-    assert_non_null(at);
-    strcpy(at->folder, "/tmp/test_fmu_steps-XXXXXX");
-    assert_non_null(mkdtemp(at->folder));
-    snprintf(at->fmu, sizeof at->fmu, "%s/good.fmu", at->folder);
-    if (gm_bake_fmu2(map, &options, at->fmu, NULL, &error) != GM_OK)
-        fail_msg("%s", error.message);
-    gm_map_destroy(map);
-    *state = at;
-    return 0;
-}
-
-static int remove_place(void **state)
-{
-    place *at = *state;
-    (void)unlink(at->fmu);
-    (void)rmdir(at->folder);
-    free(at);
-    return 0;
-}
-
 typedef struct rig {
     gm_fmu_steps_plant *plant;
     const gm_dynamics_class *is;
@@ -62,12 +31,12 @@ typedef struct rig {
     gm_motion_input input;
 } rig;
 
-static void open_rig(rig *r, const place *at, gm_fmu_fidelity fidelity,
+static void open_rig(rig *r, const char *path, gm_fmu_fidelity fidelity,
                      const gm_motion_input *input, const double *speed)
 {
     gm_error error;
     *r = (rig){.input = *input};
-    if (gm_fmu_steps_create(at->fmu, fidelity, STEP, &r->plant, &error) != GM_OK)
+    if (gm_fmu_steps_create(path, fidelity, STEP, &r->plant, &error) != GM_OK)
         fail_msg("%s", error.message);
     const gm_dynamics dynamics = gm_fmu_steps_dynamics(r->plant);
     r->is = dynamics.is;
@@ -134,12 +103,12 @@ static const double turning[GM_MAX_FLANGES] = {30.0, 0.0, 12.0};
  * acceleration (below 1 rad/s2 here) times h behind at most. */
 static void constant_torques_move_it_as_the_fmu(void **state)
 {
-    const place *at = *state;
+    const char *path = *state;
     rig r;
     gm_fmu *fmu = NULL;
     gm_motion_view view;
-    open_rig(&r, at, GM_FMU_RIGID, &driving, turning);
-    assert_int_equal(gm_fmu_open(at->fmu, &fmu, NULL), GM_OK);
+    open_rig(&r, path, GM_FMU_RIGID, &driving, turning);
+    assert_int_equal(gm_fmu_open(path, &fmu, NULL), GM_OK);
     set_integer(fmu, "fidelity", 1);
     set(fmu, "output.w_start", turning[0]);
     set(fmu, "even.w_start", turning[EVEN]);
@@ -218,14 +187,14 @@ static void a_commanded_gear_reaches_the_fmu(void **state)
 
 static void the_component_recommends_a_step(void **state)
 {
-    const place *at = *state;
+    const char *path = *state;
     const int first[GM_MAX_INPUT_PATHS] = {1, 0};
     double step[2] = {0.0, 0.0};
     for (int i = 0; i < 2; i++) {
         gm_fmu_steps_plant *plant = NULL;
-        assert_int_equal(gm_fmu_steps_create(at->fmu, i ? GM_FMU_LASH : GM_FMU_RIGID,
-                                             STEP, &plant, NULL),
-                         GM_OK);
+        assert_int_equal(
+            gm_fmu_steps_create(path, i ? GM_FMU_LASH : GM_FMU_RIGID, STEP, &plant, NULL),
+            GM_OK);
         assert_int_equal(gm_fmu_steps_recommended(plant, first, &step[i], NULL), GM_OK);
         gm_fmu_steps_destroy(plant);
     }
@@ -234,13 +203,13 @@ static void the_component_recommends_a_step(void **state)
 
 static void what_cannot_be_is_refused(void **state)
 {
-    const place *at = *state;
+    const char *path = *state;
     const double steps[] = {0.0, -1e-3, (double)NAN, (double)INFINITY};
     gm_fmu_steps_plant *plant = NULL;
     gm_error error;
     for (int i = 0; i < 4; i++)
         assert_int_equal(
-            gm_fmu_steps_create(at->fmu, GM_FMU_RIGID, steps[i], &plant, &error),
+            gm_fmu_steps_create(path, GM_FMU_RIGID, steps[i], &plant, &error),
             GM_ERR_ARGUMENT);
     assert_int_not_equal(
         gm_fmu_steps_create("/nowhere/a.fmu", GM_FMU_RIGID, STEP, &plant, &error), GM_OK);
@@ -250,12 +219,12 @@ static void what_cannot_be_is_refused(void **state)
 
 static void no_memory(void **state)
 {
-    const place *at = *state;
+    const char *path = *state;
     gm_status status = GM_ERR_MEMORY;
     gm_fmu_steps_plant *plant = NULL;
     for (long k = 1; status != GM_OK && k < 1000; k++) {
         gm_alloc_fail_after(k);
-        status = gm_fmu_steps_create(at->fmu, GM_FMU_RIGID, STEP, &plant, NULL);
+        status = gm_fmu_steps_create(path, GM_FMU_RIGID, STEP, &plant, NULL);
         gm_alloc_fail_after(0);
         assert_true(status == GM_OK || !plant);
         if (status != GM_OK) /* a name that could not be copied reads as a missing one */
@@ -277,5 +246,5 @@ int main(void)
         cmocka_unit_test(what_cannot_be_is_refused),
         cmocka_unit_test(no_memory),
     };
-    return cmocka_run_group_tests(tests, make_place, remove_place);
+    return cmocka_run_group_tests(tests, baked_make, baked_remove);
 }
