@@ -96,7 +96,7 @@ typedef struct gm_map {
     char name[GM_MAP_TEXT], title[GM_MAP_TEXT];
     char tool_version[32];
     char input_sha256[65];                         /* of the description */
-    char options[GM_MAP_TEXT * 3];                 /* how it was swept, canonical text */
+    char options[GM_MAP_TEXT * 6];                 /* how it was swept, canonical text */
     char content_hash[65];                         /* filled when finished or read */
     double speed_max, torque_max, oil_temperature; /* rad/s, N.m, K */
     double inertia_output;

@@ -17,6 +17,7 @@
 #include "sweep/skips.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
@@ -126,6 +127,17 @@ static gm_status set_oil(const gm_sweep_options *options, gm_map *map, gm_error 
     return gm_map_set_oil(map, options->n_oil, temperature, error);
 }
 
+/* Append to the text of the options. */
+GM_PRINTF(2, 3)
+static void add_option(gm_map *map, const char *format, ...)
+{
+    size_t used = strlen(map->options);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(map->options + used, sizeof map->options - used, format, arguments);
+    va_end(arguments);
+}
+
 static void describe(const gm_plant *plant, const gm_sweep_options *options, gm_map *map)
 {
     const gm_plant_info *info = &plant->info;
@@ -139,25 +151,21 @@ static void describe(const gm_plant *plant, const gm_sweep_options *options, gm_
     snprintf(map->title, sizeof map->title, "%s", info->title);
     snprintf(map->tool_version, sizeof map->tool_version, "%s", GM_VERSION);
     snprintf(map->input_sha256, sizeof map->input_sha256, "%s", info->source_sha256);
-    snprintf(map->options, sizeof map->options,
-             "speed_step=%s torque_step=%s speed_max=%.17g torque_max=%.17g "
-             "oil_temperature=%.17g",
-             speed, torque, map->speed_max, map->torque_max, map->oil_temperature);
-    size_t used = strlen(map->options);
+    map->options[0] = '\0';
+    add_option(map,
+               "speed_step=%s torque_step=%s speed_max=%.17g torque_max=%.17g "
+               "oil_temperature=%.17g",
+               speed, torque, map->speed_max, map->torque_max, map->oil_temperature);
     if (options->n_oil > 0)
-        snprintf(map->options + used, sizeof map->options - used,
-                 " oil_axis=%.9g..%.9g/%d", options->at_oil[0]->info.oil_temperature,
-                 options->at_oil[options->n_oil - 1]->info.oil_temperature,
-                 options->n_oil);
-    used = strlen(map->options);
+        add_option(
+            map, " oil_axis=%.9g..%.9g/%d", options->at_oil[0]->info.oil_temperature,
+            options->at_oil[options->n_oil - 1]->info.oil_temperature, options->n_oil);
     if (by_error(options))
-        snprintf(map->options + used, sizeof map->options - used,
-                 " tolerance=%.17g,%.17gN.m interpolation=%s", options->tolerance_share,
-                 options->tolerance_torque, options->monotone ? "monotone" : "linear");
-    used = strlen(map->options);
+        add_option(map, " tolerance=%.17g,%.17gN.m interpolation=%s",
+                   options->tolerance_share, options->tolerance_torque,
+                   options->monotone ? "monotone" : "linear");
     if (options->experiments)
-        snprintf(map->options + used, sizeof map->options - used, " %s",
-                 options->experiments);
+        add_option(map, " %s", options->experiments);
 }
 
 /* ---- threads ---- */
