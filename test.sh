@@ -13,4 +13,4 @@ gm_build build -DCMAKE_BUILD_TYPE=Release -DGM_WERROR=ON -DGM_BUILD_TESTS=ON \
   -DGM_BUILD_BENCH=ON -DGM_PYTHON="$PWD/build/venv/bin/python"
 
 gm_say "testing"
-ctest --test-dir build --output-on-failure "$@"
+ctest --test-dir build --output-on-failure --parallel 2 "$@"
