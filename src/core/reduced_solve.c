@@ -292,6 +292,7 @@ void gm_solve_given(const gm_drive *d, gm_solution *s)
     s->lead = d->h / 2;
     first_place(d, s, &at);
     s->point.a[0] = s->point.a[1] = s->point.spring[0] = s->point.spring[1] = 0;
+    s->point.m[0] = s->point.m[1] = 0; /* also of the path that is not there */
     one_pass(d, s, &at);
     if (!gm_terms_hold(d, s, &at, &s->point)) {
         more_passes(d, s, &at);
