@@ -348,6 +348,37 @@ static void a_single_path_works_alone(void **state)
     assert_near(s.work, hand_kinetic(&f.m, &s) + s.loss_energy, 1e-15);
 }
 
+/* What calls leave on the stack where those after them have their variables: NaN. */
+static void fill_with_nan(void)
+{
+    volatile unsigned char bytes[8192];
+    for (size_t i = 0; i < sizeof bytes; i++)
+        bytes[i] = 0xff;
+}
+
+/* By a pointer, so that it has a frame of its own. */
+static void (*volatile leave_nan_behind)(void) = fill_with_nan;
+
+static void nothing_is_read_of_the_path_that_is_not_there(void **state)
+{
+    hand_spec spec = hand_default();
+    (void)state;
+    spec.n_paths = 1;
+    use(&spec);
+    for (int gear = 0; gear <= 1; gear++) {
+        gm_reduced_inputs in = hand_inputs(gear, 99);
+        gm_reduced_state s = hand_start(&f.m, gear, 99, 10);
+        gm_reduced_outputs o;
+        in.path_tau[0] = 20;
+        leave_nan_behind();
+        assert_int_equal(gm_reduced_outputs_at(&f.m.map, &f.params, &in, &s, &o), 0);
+        assert_true(o.loss_power > 0);
+        leave_nan_behind();
+        assert_int_equal(gm_reduced_step(&f.m.map, &f.params, &in, 1e-3, &s), 0);
+        assert_true(s.loss_energy > 0);
+    }
+}
+
 static void starts_in_the_commanded_gears(void **state)
 {
     const hand_spec spec = hand_default();
@@ -397,6 +428,7 @@ int main(void)
         cmocka_unit_test(keeps_the_state_when_the_result_overflows),
         cmocka_unit_test(tells_when_the_map_is_left),
         cmocka_unit_test(a_single_path_works_alone),
+        cmocka_unit_test(nothing_is_read_of_the_path_that_is_not_there),
         cmocka_unit_test(starts_in_the_commanded_gears),
         cmocka_unit_test(an_instance_stays_small),
     };
