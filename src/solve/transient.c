@@ -11,6 +11,7 @@
 #include "solve/sun_ode.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
@@ -37,6 +38,7 @@ struct gm_transient {
     due due;           /* at t */
     double moved_at;   /* time when the clock last moved on, and rounds since */
     int rounds;
+    double gave_up_at; /* time of the last solver's failure after which it began anew */
     gm_energy energy;
     gm_sun_ode_counts before;           /* work of earlier runs */
     gm_transient_statistics statistics; /* restarts, events, cpu */
@@ -222,11 +224,22 @@ static gm_status settle(gm_transient *tr, gm_error *error)
     return restart(tr, 0.0, error);
 }
 
+/* Where steps of some order and a Jacobian of earlier do not get on, a new start often
+ * does; the same place twice has no solution. */
+static bool may_begin_anew(gm_transient *tr, gm_sun_ode_outcome outcome)
+{
+    bool stuck = outcome == GM_ODE_NO_CONVERGENCE || outcome == GM_ODE_ERROR_TOO_LARGE;
+    bool first = tr->t > tr->gave_up_at;
+    tr->gave_up_at = tr->t;
+    return stuck && first;
+}
+
 static gm_status step(gm_transient *tr, gm_error *error)
 {
     gm_sun_ode_outcome outcome = gm_sun_ode_step(tr->ode, &tr->t, tr->x);
     if (outcome > GM_ODE_EVENT)
-        return fail_at(tr, outcome, error);
+        return may_begin_anew(tr, outcome) ? restart(tr, 0.0, error)
+                                           : fail_at(tr, outcome, error);
     tr->due = outcome == GM_ODE_STOP ? DUE_PIECE : DUE_MODES;
     tr->statistics.events += outcome == GM_ODE_EVENT;
     gm_transient_powers powers = powers_at(tr);
@@ -258,6 +271,7 @@ gm_status gm_transient_start(gm_transient *tr, double t, gm_error *error)
     if (status != GM_OK)
         return status;
     tr->t = tr->now = tr->moved_at = t;
+    tr->gave_up_at = -(double)INFINITY;
     tr->due = DUE_PIECE;
     tr->rounds = 0;
     memset(&tr->statistics, 0, sizeof tr->statistics);

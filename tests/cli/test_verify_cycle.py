@@ -112,6 +112,16 @@ def test_another_vehicle(example_fmu, tmp_path):
         "verify", EXAMPLE, example_fmu, *options, "--vehicle", vehicle)
 
 
+def test_one_gear_at_high_speed(tmp_path):
+    """Coasting from 70 km/h at 5000 rpm the solver gets stuck on the way and has to begin
+    anew."""
+    ev1 = EXAMPLE.parent / "ev1.yaml"
+    succeeds("reduce", ev1, "-o", tmp_path / "ev1.fmu", "--points", 10)
+    result = result_of("verify", ev1, tmp_path / "ev1.fmu", "--cycle", "eudc")
+    for run in result["reduced"]:
+        assert abs(run["errors"]["loss_energy_relative"]) < 3e-3
+
+
 def test_wrong_wishes_are_refused(example_fmu, tmp_path):
     assert "wltc3b" in fails("verify", EXAMPLE, example_fmu, "--cycle", "ftp75")
     assert gearmap("verify", EXAMPLE, example_fmu).returncode == 2
