@@ -435,11 +435,12 @@ static gm_status summarise(const run *r, double deviation, gm_sweep_summary *sum
     if (r->control)
         gm_control_missed(r->control, summary->missed);
     size_t n = (size_t)summary->n_skipped;
+    if (n == 0)
+        return GM_OK;
     summary->skipped = gm_calloc(n, sizeof *skipped);
     if (!summary->skipped)
         return gm_fail(error, GM_ERR_MEMORY, "no memory for what was skipped");
-    if (n > 0)
-        memcpy(summary->skipped, skipped, n * sizeof *skipped);
+    memcpy(summary->skipped, skipped, n * sizeof *skipped);
     return GM_OK;
 }
 
